@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_base_log_h
+#define nacre_base_log_h
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/mpi.h>
+
+#include <set>
+#include <string>
+
+namespace Nacre
+{
+  /** What a run tells on the terminal; only rank 0 prints. */
+  class Log
+  {
+  public:
+    /** @param quiet whether progress() is suppressed. */
+    explicit Log(const MPI_Comm communicator, const bool quiet = false);
+
+    /** Lines that tell how far the run is; nothing if quiet. */
+    dealii::ConditionalOStream &
+    progress();
+
+    /** What the run is made for, as the table of results; always printed. */
+    dealii::ConditionalOStream &
+    results();
+
+    /**
+     * "nacre: warning: text" on std::cerr, once for each text, also if quiet.
+     */
+    void
+    warning(const std::string &text);
+
+    bool
+    is_quiet() const;
+
+  private:
+    bool                       quiet_;
+    dealii::ConditionalOStream progress_;
+    dealii::ConditionalOStream results_;
+    dealii::ConditionalOStream errors_;
+    std::set<std::string>      warnings_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_base_text_h
+#define nacre_base_text_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/** Small parsers of parameter values; every error is an ExcMessage. */
+namespace Nacre::Text
+{
+  /** Remove white space at both ends. */
+  std::string
+  trim(const std::string &text);
+
+  /**
+   * Split at @p separator wherever it stands outside parentheses, trim the
+   * parts; an empty text has no parts. `split("a, f(x, y)", ',')` gives
+   * {"a", "f(x, y)"}. An unbalanced parenthesis and an empty part throw a
+   * message that quotes @p where, the parameter that holds the text.
+   */
+  std::vector<std::string>
+  split(const std::string &text, const char separator, const std::string &where);
+
+  /**
+   * Split "key = value" at the first '=' outside parentheses that isn't part
+   * of a comparison (==, <=, >=, !=). Without one, the value is empty and
+   * `second` is "". Both sides are trimmed.
+   */
+  std::pair<std::string, std::string>
+  key_and_value(const std::string &text);
+
+  /** The @p candidates nearest to @p name (edit distance), best first. */
+  std::vector<std::string>
+  nearest(const std::string              &name,
+          const std::vector<std::string> &candidates,
+          const unsigned int              n_max = 3);
+
+  /**
+   * "where: unknown kind 'name'. Did you mean 'a' or 'b'? Known: a, b, c."
+   * The text for an AssertThrow(..., ExcMessage(...)).
+   */
+  std::string
+  unknown_name(const std::string              &where,
+               const std::string              &kind,
+               const std::string              &name,
+               const std::vector<std::string> &candidates);
+} // namespace Nacre::Text
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_discretization_h
+#define nacre_discretization_discretization_h
+
+#include <nacre/base/types.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/distributed/tria_base.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q_cache.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace Nacre
+{
+  class Midsurface;
+
+  /** A point of the discrete mid-surface, found by Discretization::locate(). */
+  struct SurfacePoint
+  {
+    /** Whether the cell is this rank's. */
+    bool is_mine = false;
+    /** The cell, valid where is_mine. */
+    DoFHandler<dim, spacedim>::active_cell_iterator cell;
+    /** Coordinates in the reference cell [0, 1]^2, valid where is_mine. */
+    Point<dim> unit;
+    /** Nearest point of the mid-surface (length), valid on all ranks. */
+    Point<spacedim> position;
+    /** Distance from the point asked for (length), valid on all ranks. */
+    double distance = 0.;
+    /** Diameter of the cell (length), valid on all ranks. */
+    double cell_diameter = 0.;
+  };
+
+  /**
+   * One mesh of the mid-surface with its isoparametric geometry (18) and its
+   * displacement space: FE_Q(p)^3, continuous displacements, discontinuous
+   * rotations.
+   *
+   * The geometry is a field on the mesh with the hanging-node constraints
+   * applied, so that it is continuous across hanging edges too, and the rigid
+   * motions lie in the displacement space if the mapping's degree is at most
+   * that of the element.
+   */
+  class Discretization
+  {
+  public:
+    /**
+     * @param mapping_degree degree of the geometry; 0 means isoparametric
+     */
+    Discretization(const Midsurface  &midsurface,
+                   const MPI_Comm     communicator,
+                   const unsigned int degree,
+                   const unsigned int mapping_degree,
+                   const unsigned int n_refinements);
+
+    /**
+     * The same on a mesh handed over, with the positions of the nodes of the
+     * geometry (on a mesh of one rank, ordered as @p dof_handler's support
+     * points): see MappingQCache. For meshes that are no Midsurface.
+     */
+    Discretization(
+      std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
+      const std::function<Point<spacedim>(
+        const Triangulation<dim, spacedim>::cell_iterator &,
+        const Point<dim> &)>                                     &position,
+      const unsigned int                                          degree,
+      const unsigned int                                          mapping_degree);
+
+    unsigned int
+    degree() const;
+
+    MPI_Comm
+    communicator() const;
+
+    const parallel::TriangulationBase<dim, spacedim> &
+    triangulation() const;
+
+    const Mapping<dim, spacedim> &
+    mapping() const;
+
+    /** The displacement space, FESystem(FE_Q(p), 3). */
+    const DoFHandler<dim, spacedim> &
+    dof_handler() const;
+
+    /** The scalar element whose nodes carry the displacements. */
+    const FE_Q<dim, spacedim> &
+    scalar_fe() const;
+
+    /** Local dof of the component c of the node a: index 3 a + c. */
+    const std::vector<unsigned int> &
+    node_dofs() const;
+
+    const IndexSet &
+    locally_owned_dofs() const;
+
+    const IndexSet &
+    locally_relevant_dofs() const;
+
+    /** Hanging nodes only. */
+    const AffineConstraints<double> &
+    hanging_node_constraints() const;
+
+    /** Positions (length) of the displacement nodes of @p cell. */
+    std::vector<Point<spacedim>>
+    node_positions(
+      const Triangulation<dim, spacedim>::active_cell_iterator &cell) const;
+
+    /** The point of the mid-surface nearest to @p point; collective. */
+    SurfacePoint
+    locate(const Point<spacedim> &point) const;
+
+    /**
+     * Extent of the mid-surface: the diagonal of its bounding box (length),
+     * and the box' centre.
+     */
+    std::pair<Point<spacedim>, double>
+    extent() const;
+
+  private:
+    void
+    build_geometry(const std::function<Point<spacedim>(
+                     const Triangulation<dim, spacedim>::cell_iterator &,
+                     const Point<dim> &)> &position);
+
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation_;
+
+    unsigned int              mapping_degree_;
+    FE_Q<dim, spacedim>       scalar_fe_;
+    FESystem<dim, spacedim>   fe_;
+    DoFHandler<dim, spacedim> dof_handler_;
+    std::vector<unsigned int> node_dofs_;
+
+    IndexSet                  locally_owned_dofs_;
+    IndexSet                  locally_relevant_dofs_;
+    AffineConstraints<double> hanging_node_constraints_;
+
+    FESystem<dim, spacedim>                    geometry_fe_;
+    DoFHandler<dim, spacedim>                  geometry_dof_handler_;
+    LinearAlgebra::distributed::Vector<double> geometry_;
+    /** Geometry's shape functions at the displacement nodes. */
+    FullMatrix<double>                            geometry_to_nodes_;
+    std::unique_ptr<MappingQCache<dim, spacedim>> mapping_;
+  };
+} // namespace Nacre
+
+#endif

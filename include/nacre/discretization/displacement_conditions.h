@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_displacement_conditions_h
+#define nacre_discretization_displacement_conditions_h
+
+#include <nacre/discretization/discretization.h>
+
+#include <nacre/problem/boundary_conditions.h>
+
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * Prescribed displacements as constraints of nodes: every node collects the
+   * components that its edges and point supports prescribe; components that
+   * depend on each other must agree.
+   */
+  class DisplacementConditions
+  {
+  public:
+    /**
+     * Collective. Throws, on all ranks, for contradicting conditions, for a
+     * symmetry or diaphragm edge that isn't plane, and for a point support
+     * that is no node.
+     */
+    DisplacementConditions(const Discretization     &discretization,
+                           const BoundaryConditions &boundary_conditions);
+
+    /** Hanging nodes and prescribed displacements on the relevant dofs. */
+    const AffineConstraints<double> &
+    constraints() const
+    {
+      return constraints_;
+    }
+
+    /**
+     * The rigid motions that neither a displacement nor a rotation condition
+     * prevents, in words; empty if the shell is held.
+     */
+    std::vector<std::string>
+    free_rigid_motions() const;
+
+  private:
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** A node on a boundary edge, as one of its cells sees it. */
+    struct EdgeNode
+    {
+      types::boundary_id                             id;
+      std::array<types::global_dof_index, spacedim> dofs;
+      Point<spacedim>                                position;
+      Vector3                                        normal;
+      Vector3                                        conormal;
+    };
+
+    /** One prescribed component direction . u = value of a node. */
+    struct Component
+    {
+      Vector3            direction;
+      double             value;
+      const std::string *source;
+    };
+
+    struct Node
+    {
+      Point<spacedim>                               position;
+      std::array<types::global_dof_index, spacedim> dofs;
+      std::vector<Component>                        components;
+    };
+
+    /** All nodes of conditioned edges on all ranks. */
+    std::vector<EdgeNode>
+    collect_edge_nodes() const;
+
+    /** One entry a node and edge, with mean directions. */
+    static std::vector<EdgeNode>
+    average(const std::vector<EdgeNode> &nodes);
+
+    /** Unit normal of the plane that holds an edge. */
+    Vector3
+    plane_normal(const std::vector<EdgeNode> &nodes,
+                 const types::boundary_id     id,
+                 const std::string           &source) const;
+
+    void
+    add_edge_conditions(const std::vector<EdgeNode> &nodes);
+
+    void
+    add_point_supports();
+
+    /** Add the lines of one node; components must agree. */
+    void
+    constrain(const Node &node);
+
+    const Discretization     &discretization_;
+    const BoundaryConditions &boundary_conditions_;
+    AffineConstraints<double> constraints_;
+
+    /** By the node's first dof, the same on all ranks. */
+    std::map<types::global_dof_index, Node> nodes_;
+    /** Rotation axes t at X where t . omega is prevented. */
+    std::vector<Vector3> rotation_axes_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_edge_penalty_h
+#define nacre_forms_edge_penalty_h
+
+#include <nacre/discretization/shell_values.h>
+
+#include <nacre/mechanics/section_law.h>
+
+#include <optional>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * The penalty eta^e = eta / h^e (15) of the edges, with the characteristic
+   * size h^e = min(|A| / |dA|) over both cells (16): area over perimeter.
+   *
+   * The form is coercive if, on both cells K of every edge, eta is at least
+   * eta_K = (h^e / 2) lambda_K, lambda_K (1/length) the largest eigenvalue of
+   * the pair (int_dK m_nn^2 / D ds, int_K rho:H_m:rho dA) with the run's own
+   * quadrature. Without a user's eta, twice the larger of both cells' eta_K
+   * is taken, so that eta^e = max lambda_K.
+   */
+  class EdgePenalty
+  {
+  public:
+    /** @param eta the user's eta; none: the bound */
+    EdgePenalty(const Discretization        &discretization,
+                const SectionLaw            &section,
+                const std::optional<double> &eta);
+
+    using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
+
+    /** eta^e (1/length) of the edge between two cells. */
+    double
+    interior(const cell_iterator &cell, const cell_iterator &neighbor) const;
+
+    /** eta^e (1/length) of a boundary edge, without the factor 2. */
+    double
+    boundary(const cell_iterator &cell) const;
+
+    /**
+     * The largest eta_K over all edges, the bound that makes the form
+     * coercive (1); with a user's eta below it, the matrix may be indefinite.
+     */
+    double
+    bound() const
+    {
+      return bound_;
+    }
+
+    /** The user's eta, or twice the bound: the largest eta taken (1). */
+    double
+    eta() const
+    {
+      return eta_ ? *eta_ : 2. * bound_;
+    }
+
+    /** lambda_K (1/length) of a cell that this rank owns or has as a ghost. */
+    double
+    eigenvalue(const cell_iterator &cell) const
+    {
+      return eigenvalues_[cell->active_cell_index()];
+    }
+
+  private:
+    const std::optional<double> eta_;
+    /** By active cell index: |A| / |dA| (length), and lambda_K. */
+    std::vector<double> sizes_;
+    std::vector<double> eigenvalues_;
+    double              bound_ = 0.;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_hinge_form_h
+#define nacre_forms_hinge_form_h
+
+#include <nacre/discretization/shell_values.h>
+
+#include <nacre/mechanics/section_law.h>
+
+namespace Nacre
+{
+  /**
+   * The quantities of the hinge form at one point of one side of an edge, for
+   * the shape function of each node: a displacement N e_c has the rotation
+   * rotation[a] * t0_c and the moment moment[a] * t0_c.
+   */
+  struct HingeSide
+  {
+    /** theta = t0 . du/dnu of the shape functions, per t0 (1/length). */
+    std::vector<double> rotation;
+    /** m_nn = nu . H_m rho . nu of the shape functions, per t0. */
+    std::vector<double> moment;
+    Tensor<1, spacedim> t0;
+    /** H_m(nu, nu, nu, nu): bending stiffness across the edge. */
+    double stiffness = 0.;
+
+    /**
+     * Fill for the point @p q of the @p side of @p edge, sigma included.
+     */
+    void
+    reinit(const ShellEdgeValues &edge,
+           const unsigned int     side,
+           const unsigned int     q,
+           const SectionLaw      &section);
+  };
+
+  /**
+   * [[theta]], {m_nn} of all dofs of an edge and D at one point:
+   * formulation.md section 3. On the boundary [[theta]] = -theta^- and {m_nn}
+   * = m_nn^-, the mirror image's.
+   */
+  class HingePoint
+  {
+  public:
+    void
+    reinit(const ShellEdgeValues &edge,
+           const unsigned int     q,
+           const SectionLaw      &section);
+
+    /** Rotation jump of each dof (1/length). */
+    const std::vector<double> &
+    rotation_jump() const
+    {
+      return rotation_jump_;
+    }
+
+    /** Mean normal moment of each dof (force/length). */
+    const std::vector<double> &
+    mean_moment() const
+    {
+      return mean_moment_;
+    }
+
+    /** D = {H_m(nu, nu, nu, nu)} (force times length). */
+    double
+    stiffness() const
+    {
+      return stiffness_;
+    }
+
+  private:
+    HingeSide           side_;
+    std::vector<double> rotation_jump_;
+    std::vector<double> mean_moment_;
+    double              stiffness_ = 0.;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_kinematics_h
+#define nacre_forms_kinematics_h
+
+#include <nacre/discretization/shell_values.h>
+
+#include <nacre/mechanics/section_law.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /** Parts of the strain energy (force times length). */
+  struct Energies
+  {
+    double membrane = 0.;
+    double bending  = 0.;
+    /** Penalty and consistency terms of interior and boundary edges. */
+    double edge = 0.;
+
+    double
+    total() const
+    {
+      return membrane + bending + edge;
+    }
+
+    Energies &
+    operator+=(const Energies &other);
+  };
+
+  /** How the membrane strain of a cell is integrated. */
+  enum class MembraneStrain
+  {
+    /** Tied at Gauss points: free of locking, no spurious modes. */
+    tied,
+    /** At all points of the full rule: locks. */
+    full,
+    /**
+     * At p x p points, blended with full integration by
+     * f = min(1, h^2 / |K|) against spurious modes.
+     */
+    reduced
+  };
+
+  /** Names of MembraneStrain in its order. */
+  const std::vector<std::string> &
+  membrane_strain_names();
+
+  /** What the terms of a cell or an edge contribute, on local dofs. */
+  struct LocalTerms
+  {
+    /** Whether to fill the tangent. */
+    bool               wants_tangent = true;
+    FullMatrix<double> tangent;
+    /** Internal forces at the current displacement. */
+    Vector<double> residual;
+    Energies       energies;
+
+    /** Set to zero for @p n_dofs dofs. */
+    void
+    reinit(const unsigned int n_dofs);
+  };
+
+  /**
+   * The local terms of the shell's virtual work and their derivative at the
+   * current displacement: linear, co-rotational and finite-rotation
+   * kinematics are alternatives of this interface.
+   */
+  class Kinematics
+  {
+  public:
+    virtual ~Kinematics() = default;
+
+    /** A copy with scratch data of its own. */
+    virtual std::unique_ptr<Kinematics>
+    clone() const = 0;
+
+    /**
+     * Membrane and bending terms of @p cell, (32)-(33), at the displacement
+     * @p u of the cell's dofs; adds to @p terms. Afterwards cell_values() are
+     * those of the cell.
+     */
+    virtual void
+    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                   const Vector<double>                              &u,
+                   LocalTerms                                        &terms) = 0;
+
+    /** Frames at the full rule of the last cell. */
+    virtual const ShellCellValues &
+    cell_values() const = 0;
+
+    /**
+     * Terms of an interior edge, at the displacement @p u of the edge's dofs.
+     * @param penalty eta^e = eta / h^e (1/length)
+     */
+    virtual void
+    add_edge_terms(const ShellEdgeValues &edge,
+                   const double           penalty,
+                   const Vector<double>  &u,
+                   LocalTerms            &terms) = 0;
+
+    /**
+     * Terms of a boundary edge with the prescribed rotation
+     * @p rotation[q] (rad); data terms included.
+     */
+    virtual void
+    add_rotation_terms(const ShellEdgeValues     &edge,
+                       const double               penalty,
+                       const std::vector<double> &rotation,
+                       const Vector<double>      &u,
+                       LocalTerms                &terms) = 0;
+  };
+} // namespace Nacre
+
+#endif

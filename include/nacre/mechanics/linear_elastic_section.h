@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_mechanics_linear_elastic_section_h
+#define nacre_mechanics_linear_elastic_section_h
+
+#include <nacre/base/expression.h>
+
+#include <nacre/mechanics/section_law.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+
+namespace Nacre
+{
+  /**
+   * The dimensionless isotropic stiffness (10) with the metric G of the
+   * surface (1/length^4), in Voigt order:
+   * H^abcd = nu G^ab G^cd + (1 - nu)/2 (G^ac G^bd + G^ad G^bc).
+   */
+  template <typename Number>
+  VoigtMatrix<Number>
+  isotropic_stiffness(const SurfaceFrame<Number> &frame, const Number &nu)
+  {
+    const Number g_11 = frame.metric_con[0];
+    const Number g_22 = frame.metric_con[1];
+    const Number g_12 = frame.metric_con[2];
+
+    VoigtMatrix<Number> H;
+    H[0][0] = g_11 * g_11;
+    H[1][1] = g_22 * g_22;
+    H[0][1] = nu * g_11 * g_22 + (1. - nu) * g_12 * g_12;
+    H[0][2] = g_11 * g_12;
+    H[1][2] = g_22 * g_12;
+    H[2][2] = 0.5 * ((1. - nu) * g_11 * g_22 + (1. + nu) * g_12 * g_12);
+    H[1][0] = H[0][1];
+    H[2][0] = H[0][2];
+    H[2][1] = H[1][2];
+    return H;
+  }
+
+  /**
+   * Isotropic linear elastic homogeneous section, (8)-(10):
+   * H_n = E h/(1 - nu^2) H, H_m = E h^3/(12 (1 - nu^2)) H.
+   */
+  class LinearElasticSection : public SectionLaw, public ParameterAcceptor
+  {
+  public:
+    LinearElasticSection();
+
+    void
+    prepare(const Constants &constants) override;
+
+    void
+    set_thickness(const double thickness) override;
+
+    Constants
+    named_constants() const override;
+
+    double
+    thickness(const Point<3> &point) const override;
+
+    double
+    density(const Point<3> &point) const override;
+
+    SectionStiffness
+    stiffness(const SurfaceFrame<> &frame, const Point<3> &point) const override;
+
+  private:
+    double
+    youngs_modulus(const Point<3> &point) const;
+
+    std::string youngs_modulus_text_ = "1";
+    std::string thickness_text_      = "0.1";
+    std::string density_text_        = "0";
+    double      nu_                  = 0.3;
+
+    Expression            youngs_modulus_;
+    Expression            thickness_;
+    Expression            density_;
+    std::optional<double> thickness_of_study_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_quantities_of_interest_h
+#define nacre_postprocess_quantities_of_interest_h
+
+#include <nacre/base/expression.h>
+
+#include <nacre/forms/kinematics.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  class ExactSolution;
+  class Midsurface;
+  class ShellOperator;
+
+  /** A solved shell, as the quantities see it. */
+  struct SolvedShell
+  {
+    const Discretization &discretization;
+    const SectionLaw     &section;
+    const ShellOperator  &shell_operator;
+    const MembraneStrain  membrane_strain;
+    const ExactSolution  &exact_solution;
+    /** Ghosted displacement (length). */
+    const TrilinosWrappers::MPI::Vector &displacement;
+    /** K u - f (force) without constraints. */
+    const TrilinosWrappers::MPI::Vector &residual;
+    const Energies                       energies;
+  };
+
+  /** The quantities that a study reports, by name. */
+  class QuantitiesOfInterest : public ParameterAcceptor
+  {
+  public:
+    struct Quantity
+    {
+      std::string           name;
+      std::optional<double> reference;
+      /** Whether it is a norm of the error. */
+      bool is_error = false;
+      /** The value; collective. */
+      std::function<double(const SolvedShell &)> evaluate;
+    };
+
+    QuantitiesOfInterest();
+
+    /**
+     * Read the list. Throws for unknown kinds and edges, for two quantities of
+     * one name and for an error norm without an exact solution.
+     */
+    void
+    prepare(const Midsurface    &midsurface,
+            const ExactSolution &exact_solution,
+            const Constants     &constants);
+
+    const std::vector<Quantity> &
+    quantities() const
+    {
+      return quantities_;
+    }
+
+    /** Kinds, for messages and --list. */
+    static std::vector<std::string>
+    kinds();
+
+  private:
+    std::string           text_;
+    std::vector<Quantity> quantities_;
+  };
+} // namespace Nacre
+
+#endif

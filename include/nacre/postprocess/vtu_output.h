@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_vtu_output_h
+#define nacre_postprocess_vtu_output_h
+
+#include <nacre/forms/kinematics.h>
+
+#include <deal.II/base/data_out_base.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * The fields of a solved shell on this rank's cells, at (p + 1)^2 equidistant
+   * points of each: the nodes of VTK's Lagrange cells. Stresses are those of
+   * each cell by itself, not smoothed. deal.II's writers of all formats work on
+   * it.
+   *
+   * | field | meaning | units |
+   * |---|---|---|
+   * | displacement | u | length |
+   * | normal | t0, of the undeformed surface | - |
+   * | e1, e2 | surface frame: e1 = a_1/|a_1|, e2 = t0 x e1 | - |
+   * | membrane_forces | N = n^ab a_a (x) a_b, n = H_n eps, (8) | force/length |
+   * | moments | M = m^ab a_a (x) a_b, m = H_m rho, (8) | force |
+   * | principal_membrane_force_1, _2 | eigenvalues in the tangent plane, the
+   * larger first | force/length |
+   * | principal_moment_1, _2 | the same of M | force |
+   * | n11, n22, n12, m11, m22, m12 | e_i . N e_j, e_i . M e_j | |
+   * | von_mises_top, _middle, _bottom | of the plane stress n/h + 12 z m/h^3
+   * at z = h/2, 0, -h/2 along t0 | force/length^2 |
+   * | energy_density | (n : eps + m : rho)/2 | force/length |
+   * | rank | MPI rank that owns the cell | - |
+   *
+   * The strain at the distance z along t0 is eps + z rho, since
+   * rho_ab = -u,ab . t0 on a plate: positive moments stretch the top.
+   */
+  class ShellFields : public DataOutInterface<dim, spacedim>
+  {
+  public:
+    using Patch = DataOutBase::Patch<dim, spacedim>;
+    using NonscalarRange =
+      std::tuple<unsigned int,
+                 unsigned int,
+                 std::string,
+                 DataComponentInterpretation::DataComponentInterpretation>;
+
+    /**
+     * @param membrane_strain the strains are tied unless this is `full`
+     * @param displacement ghosted (length)
+     */
+    ShellFields(const Discretization                &discretization,
+                const SectionLaw                    &section,
+                const MembraneStrain                 membrane_strain,
+                const TrilinosWrappers::MPI::Vector &displacement);
+
+    /**
+     * One patch for each of this rank's cells; data[component][point], points
+     * in lexicographic order, the three last components are the position.
+     */
+    const std::vector<Patch> &
+    get_patches() const override;
+
+    /** The name of each component; those of a vector or tensor share one. */
+    std::vector<std::string>
+    get_dataset_names() const override;
+
+    std::vector<NonscalarRange>
+    get_nonscalar_data_ranges() const override;
+
+  private:
+    std::vector<Patch> patches_;
+  };
+
+  /**
+   * Writes ShellFields as VTU files with higher-order cells, one time step per
+   * solve. In ParaView open the .pvd (or one .vtu or .pvtu) and use
+   * "Warp By Vector" with the displacement.
+   */
+  class VtuOutput
+  {
+  public:
+    /**
+     * Write `NAME_COUNTER.vtu` into @p folder, which is created if it is
+     * missing; on several ranks `NAME_COUNTER.RANK.vtu` of those that own
+     * cells and `NAME_COUNTER.pvtu`. Then `NAME.pvd` lists all counters
+     * written so far by this object. Collective; throws on all ranks an
+     * ExcMessage that names the folder or file if one can't be written.
+     */
+    void
+    write(const Discretization                &discretization,
+          const SectionLaw                    &section,
+          const MembraneStrain                 membrane_strain,
+          const TrilinosWrappers::MPI::Vector &ghosted_displacement,
+          const std::string                   &folder,
+          const std::string                   &name,
+          const unsigned int                   counter);
+
+  private:
+    /** For each .pvd: the file of each counter. */
+    std::map<std::string, std::map<unsigned int, std::string>> records_;
+  };
+} // namespace Nacre
+
+#endif

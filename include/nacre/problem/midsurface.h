@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_problem_midsurface_h
+#define nacre_problem_midsurface_h
+
+#include <nacre/base/types.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <deal.II/distributed/tria_base.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  class ParametricSurface;
+
+  /**
+   * The mid-surface phi0 of the shell: a coarse quadrilateral mesh in a chart
+   * and the map from the chart to space.
+   *
+   * The mesh is only a topology. The position of any point of any descendant
+   * cell follows from the coarse cell, the path of children down to the cell,
+   * and the exact map, so that refinement puts new nodes on the exact surface
+   * and needs neither a manifold nor a pull-back.
+   */
+  class Midsurface : public ParameterAcceptor
+  {
+  public:
+    Midsurface();
+    ~Midsurface() override;
+
+    /**
+     * Build the chosen surface. Throws for an unknown surface or edge, for
+     * parameters out of range, and for a surface that is degenerate (area
+     * Jacobian zero or not finite).
+     */
+    void
+    prepare(const Constants &constants);
+
+    /**
+     * The mesh of the mid-surface, refined @p n_refinements times, with the
+     * boundary ids of edge_names().
+     */
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+    create_triangulation(const MPI_Comm     communicator,
+                         const unsigned int n_refinements) const;
+
+    /**
+     * phi0 (length) at the point @p unit of the reference cell [0, 1]^2 of
+     * @p cell, on the exact surface.
+     */
+    Point<spacedim>
+    position(const Triangulation<dim, spacedim>::cell_iterator &cell,
+             const Point<dim>                                  &unit) const;
+
+    /** Names of the boundary edges; the index is the boundary id. */
+    const std::vector<std::string> &
+    edge_names() const;
+
+    /**
+     * The boundary id of the edge @p name; an unknown name throws and lists
+     * the near ones. @p where is the parameter that mentions it.
+     */
+    types::boundary_id
+    edge_id(const std::string &name, const std::string &where) const;
+
+  private:
+    /** @name Parameters */
+    //@{
+    std::string                surface_name_ = "plate";
+    std::string                subdivisions_ = "4, 4";
+    std::array<std::string, 2> grading_{{"s", "s"}};
+    /** Texts of the surfaces' own parameters by surface and parameter. */
+    std::map<std::string, std::map<std::string, std::string>> values_;
+    //@}
+
+    std::unique_ptr<const ParametricSurface> surface_;
+    std::vector<std::string>                 edge_names_;
+  };
+} // namespace Nacre
+
+#endif

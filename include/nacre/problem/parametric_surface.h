@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_problem_parametric_surface_h
+#define nacre_problem_parametric_surface_h
+
+#include <nacre/base/types.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * The map phi0 from chart points to positions (length). Surfaces over a
+   * rectangle have chart points (u, v, 0).
+   */
+  class ChartMap
+  {
+  public:
+    virtual ~ChartMap() = default;
+
+    /** The position of the chart point @p chart. */
+    virtual Point<3>
+    operator()(const Point<3> &chart) const = 0;
+  };
+
+  /** A ChartMap from a callable (const Point<3> &) -> Point<3>. */
+  template <typename Function>
+  std::unique_ptr<const ChartMap>
+  make_chart_map(Function function)
+  {
+    class Map : public ChartMap
+    {
+    public:
+      Map(Function &&function)
+        : function_(std::move(function))
+      {}
+
+      Point<3>
+      operator()(const Point<3> &chart) const override
+      {
+        return function_(chart);
+      }
+
+    private:
+      Function function_;
+    };
+
+    return std::make_unique<const Map>(std::move(function));
+  }
+
+  /**
+   * A surface as its makers describe it: coarse cells with the charts of
+   * their corners, the map of the chart to space, and the boundary edges.
+   */
+  struct SurfaceDescription
+  {
+    /** Corners in deal.II's lexicographic order: (0,0), (1,0), (0,1), (1,1). */
+    struct Cell
+    {
+      std::array<unsigned int, 4> vertices;
+      /** A vertex of a closed surface has another chart in each cell. */
+      std::array<Point<3>, 4> chart;
+    };
+
+    /** A named part of the boundary. */
+    struct Edge
+    {
+      std::string              name;
+      std::vector<std::string> aliases;
+      /** Whether a chart point lies on this edge. */
+      std::function<bool(const Point<3> &chart)> contains;
+    };
+
+    unsigned int                    n_vertices = 0;
+    std::vector<Cell>               cells;
+    std::vector<Edge>               edges;
+    std::unique_ptr<const ChartMap> map;
+  };
+
+  /**
+   * A surface that has passed the checks: a topology of coarse quadrilaterals,
+   * all of one orientation, that covers the surface, and the exact position of
+   * every point of every coarse cell,
+   *   x(K, xi) = map(sum_i N_i(xi) chart_i(K)),   N_i bilinear, xi in [0, 1]^2.
+   */
+  class ParametricSurface
+  {
+  public:
+    /** A boundary line of the coarse mesh: its end vertices and its edge. */
+    struct BoundaryLine
+    {
+      std::array<unsigned int, 2> vertices;
+      /** Index into edges(). */
+      unsigned int edge;
+    };
+
+    /**
+     * Orders the cells consistently, finds the boundary and checks the
+     * surface.
+     *
+     * @param description the surface
+     * @param where the parameter (sub)section of the surface, for messages
+     *
+     * Throws an ExcMessage that names the chart point where a position isn't
+     * finite, where the area Jacobian is zero, and where the joined sides of
+     * a closed surface don't meet.
+     */
+    ParametricSurface(SurfaceDescription &&description,
+                      const std::string   &where);
+
+    /** Position (length) of @p unit in [0, 1]^2 of the coarse cell. */
+    Point<3>
+    position(const unsigned int coarse_cell, const Point<2> &unit) const;
+
+    /** The chart of @p unit in [0, 1]^2 of the coarse cell. */
+    Point<3>
+    chart(const unsigned int coarse_cell, const Point<2> &unit) const;
+
+    /** Exact positions of the coarse vertices. */
+    std::vector<Point<3>>
+    vertices() const;
+
+    const std::vector<SurfaceDescription::Cell> &
+    cells() const;
+
+    const std::vector<SurfaceDescription::Edge> &
+    edges() const;
+
+    const std::vector<BoundaryLine> &
+    boundary_lines() const;
+
+  private:
+    /** A line of a coarse cell as seen from that cell. */
+    struct CellLine
+    {
+      unsigned int cell;
+      /** Local vertices at the ends; their vertex indices ascend. */
+      std::array<unsigned int, 2> corners;
+      /** +1 if the cell lies to the left when one walks along the line. */
+      int side;
+    };
+
+    void
+    order_cells();
+
+    void
+    find_lines();
+
+    void
+    check_not_degenerate(const std::string &where) const;
+
+    void
+    check_lines_meet(const std::string &where) const;
+
+    std::string
+    describe(const unsigned int coarse_cell, const Point<2> &unit) const;
+
+    Point<3>
+    line_point(const CellLine &line, const double t) const;
+
+    SurfaceDescription                         description_;
+    std::vector<std::pair<CellLine, CellLine>> interior_lines_;
+    std::vector<BoundaryLine>                  boundary_lines_;
+  };
+} // namespace Nacre
+
+#endif

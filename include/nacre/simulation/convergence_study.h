@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_convergence_study_h
+#define nacre_simulation_convergence_study_h
+
+#include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/simulation/shell_problem.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  class Log;
+
+  /**
+   * What a parameter file describes: a shell and the lists of degrees,
+   * penalties, thicknesses and refinements for which it is solved.
+   */
+  class ConvergenceStudy : public ParameterAcceptor
+  {
+  public:
+    explicit ConvergenceStudy(const MPI_Comm              communicator,
+                              std::unique_ptr<SectionLaw> section =
+                                std::make_unique<LinearElasticSection>());
+
+    /**
+     * Check the parameters, read before, against each other for every case;
+     * throws ExcMessage.
+     * @param prm_file the file they come from: its name is the default name
+     */
+    void
+    prepare(const std::string &prm_file);
+
+    /**
+     * Solve all cases; writes the table after each of them, so that nothing is
+     * lost if one fails.
+     */
+    void
+    run(Log &log);
+
+  private:
+    /** The part of the file outside all sections. */
+    class Heading : public ParameterAcceptor
+    {
+    public:
+      Heading();
+      std::string title     = "";
+      std::string constants = "";
+    };
+
+    void
+    check_lists() const;
+
+    /** All combinations: thickness, penalty, degree, refinement. */
+    std::vector<ShellCase>
+    make_cases() const;
+
+    const MPI_Comm communicator_;
+    Heading        heading_;
+
+    std::string               name_;
+    std::string               output_folder_ = "output";
+    std::vector<unsigned int> degrees_       = {2};
+    std::vector<std::string>  penalties_     = {"default"};
+    std::vector<std::string>  thicknesses_;
+    std::vector<unsigned int> refinements_ = {0};
+    bool                      write_vtu_   = true;
+
+    ShellProblem         problem_;
+    QuantitiesOfInterest quantities_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_shell_problem_h
+#define nacre_simulation_shell_problem_h
+
+#include <nacre/base/types.h>
+
+#include <nacre/forms/kinematics.h>
+#include <nacre/mechanics/section_law.h>
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/exact_solution.h>
+#include <nacre/problem/loads.h>
+#include <nacre/problem/midsurface.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <optional>
+
+namespace Nacre
+{
+  class Discretization;
+  class Log;
+  class ShellOperator;
+  struct SolvedShell;
+
+  /** What one solve of a study varies. */
+  struct ShellCase
+  {
+    unsigned int          degree        = 2;
+    unsigned int          n_refinements = 0;
+    std::optional<double> eta;
+    std::optional<double> thickness;
+  };
+
+  /** CPU seconds of one solve, summed over the ranks. */
+  struct SolveTimes
+  {
+    double setup    = 0.;
+    double assembly = 0.;
+    double solve    = 0.;
+  };
+
+  /** One shell: one mesh, one linear solve. */
+  class ShellProblem : public ParameterAcceptor
+  {
+  public:
+    /** @param section the section law, which reads its own parameters */
+    ShellProblem(const MPI_Comm communicator, std::unique_ptr<SectionLaw> section);
+    ~ShellProblem() override;
+
+    /** Read and check everything for a case; throws ExcMessage. */
+    void
+    prepare(const Constants &constants, const ShellCase &shell_case);
+
+    /**
+     * Set up, assemble and solve the case given to prepare(). Throws if rigid
+     * motions are left free, naming them, and if the matrix isn't positive
+     * definite.
+     */
+    void
+    solve(Log &log);
+
+    /** The solution of the last solve(). */
+    const SolvedShell &
+    solution() const;
+
+    const SolveTimes &
+    times() const
+    {
+      return times_;
+    }
+
+    /** The largest eta taken (1). */
+    double
+    eta() const;
+
+    const std::string &
+    element() const
+    {
+      return element_;
+    }
+
+    const Midsurface &
+    midsurface() const
+    {
+      return midsurface_;
+    }
+
+    const ExactSolution &
+    exact_solution() const
+    {
+      return exact_solution_;
+    }
+
+    const SectionLaw &
+    section() const
+    {
+      return *section_;
+    }
+
+    /** Constants of the file and of the section. */
+    const Constants &
+    constants() const
+    {
+      return constants_;
+    }
+
+  private:
+    void
+    warn_of_penalty(Log &log) const;
+
+    void
+    solve_linear_system(const AffineConstraints<double> &constraints);
+
+    MembraneStrain
+    membrane_strain() const;
+
+    const MPI_Comm              communicator_;
+    std::unique_ptr<SectionLaw> section_;
+    Midsurface                  midsurface_;
+    BoundaryConditions          boundary_conditions_;
+    Loads                       loads_;
+    ExactSolution               exact_solution_;
+
+    std::string  element_              = "Lagrange";
+    unsigned int mapping_degree_       = 0;
+    std::string  membrane_strain_name_ = "tied";
+
+    ShellCase  case_;
+    Constants  constants_;
+    SolveTimes times_;
+
+    std::unique_ptr<Discretization> discretization_;
+    std::unique_ptr<ShellOperator>  operator_;
+    TrilinosWrappers::MPI::Vector   displacement_;
+    TrilinosWrappers::MPI::Vector   residual_;
+    std::unique_ptr<SolvedShell>    solution_;
+  };
+} // namespace Nacre
+
+#endif

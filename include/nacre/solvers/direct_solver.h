@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_solvers_direct_solver_h
+#define nacre_solvers_direct_solver_h
+
+#include <nacre/base/types.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <memory>
+
+namespace dealii
+{
+  namespace TrilinosWrappers
+  {
+    class SparseMatrix;
+    namespace MPI
+    {
+      class Vector;
+    }
+  } // namespace TrilinosWrappers
+} // namespace dealii
+
+namespace Nacre
+{
+  /**
+   * Sparse L D L^T of a symmetric matrix by MUMPS (SYM = 2) on any number of
+   * ranks, without pivoting unless a pivot (nearly) vanishes by accident, as
+   * it may in indefinite matrices; then D gets 2x2 blocks. Only the matrix' upper
+   * triangle is read. The factors are kept for any number of right-hand
+   * sides. The number of negative pivots tells whether the matrix is positive
+   * definite.
+   */
+  class DirectSolver
+  {
+  public:
+    explicit DirectSolver(const MPI_Comm communicator);
+    ~DirectSolver();
+
+    DirectSolver(const DirectSolver &) = delete;
+    DirectSolver &
+    operator=(const DirectSolver &) = delete;
+
+    /**
+     * Analyse and factorise @p matrix, which must stay alive and unchanged
+     * for solve()'s refinement; its rows must be contiguous on each rank and
+     * rise with the rank. The analysis is kept while the pattern of nonzero
+     * entries stays the same. Lack of memory, entries that are not finite,
+     * and a matrix singular to working precision throw on all ranks.
+     */
+    void
+    factorize(const TrilinosWrappers::SparseMatrix &matrix);
+
+    /** Number of negative pivots of the last factorisation. */
+    unsigned int
+    n_negative_pivots() const;
+
+    /**
+     * Solve with iterative refinement, at most three steps, until the
+     * componentwise backward error max_i |r|_i / (|A||x| + |b|)_i stops
+     * halving. (Rows whose denominator is round-off add |A_i|_1 |x|_max.)
+     * The vectors are distributed as the matrix' rows, without ghosts; a
+     * right-hand side that is not finite throws on all ranks.
+     * @return that backward error.
+     */
+    double
+    solve(TrilinosWrappers::MPI::Vector       &x,
+          const TrilinosWrappers::MPI::Vector &b) const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+
+#include <iostream>
+
+namespace Nacre
+{
+  using namespace dealii;
+
+  Log::Log(const MPI_Comm communicator, const bool quiet)
+    : quiet_(quiet)
+    , progress_(std::cout,
+                !quiet && Utilities::MPI::this_mpi_process(communicator) == 0)
+    , results_(std::cout, Utilities::MPI::this_mpi_process(communicator) == 0)
+    , errors_(std::cerr, Utilities::MPI::this_mpi_process(communicator) == 0)
+  {}
+
+  ConditionalOStream &
+  Log::progress()
+  {
+    return progress_;
+  }
+
+  ConditionalOStream &
+  Log::results()
+  {
+    return results_;
+  }
+
+  void
+  Log::warning(const std::string &text)
+  {
+    if (!warnings_.insert(text).second)
+      return;
+    // Keep the order of the two streams on a terminal.
+    std::cout << std::flush;
+    errors_ << "nacre: warning: " << text << std::endl;
+  }
+
+  bool
+  Log::is_quiet() const
+  {
+    return quiet_;
+  }
+} // namespace Nacre

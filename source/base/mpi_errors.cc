@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/text.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+namespace Nacre
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** How long a rank that failed waits for the others to fail as well. */
+    constexpr std::chrono::seconds patience(3);
+
+    /** Whether all ranks come here within patience. */
+    bool
+    all_ranks_arrive(const MPI_Comm communicator)
+    {
+      MPI_Request request;
+      MPI_Ibarrier(communicator, &request);
+      const auto end     = std::chrono::steady_clock::now() + patience;
+      int        arrived = 0;
+      while (true)
+        {
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          if (arrived != 0 || std::chrono::steady_clock::now() > end)
+            return arrived != 0;
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+    void
+    print_error(const std::string &text)
+    {
+      std::cout << std::flush;
+      std::cerr << "nacre: error: " + text + '\n' << std::flush;
+    }
+
+    /** On rank 0, each different text once, that of the lowest rank first. */
+    void
+    print_errors_of_all_ranks(const MPI_Comm     communicator,
+                              const std::string &text)
+    {
+      const auto texts = Utilities::MPI::gather(communicator, text);
+      std::vector<std::string> printed;
+      for (const auto &other : texts)
+        if (std::find(printed.begin(), printed.end(), other) == printed.end())
+          {
+            print_error(other);
+            printed.push_back(other);
+          }
+    }
+  } // namespace
+
+
+  std::string
+  error_text(const std::exception &exception)
+  {
+    if (const auto *message =
+          dynamic_cast<const StandardExceptions::ExcMessage *>(&exception))
+      {
+        std::ostringstream out;
+        message->print_info(out);
+        return Text::trim(out.str());
+      }
+    if (dynamic_cast<const std::bad_alloc *>(&exception) != nullptr)
+      return "out of memory. Use fewer refinements, a lower degree, or a "
+             "machine with more memory.";
+    return Text::trim(exception.what());
+  }
+
+
+  int
+  run_guarded(const MPI_Comm communicator, const std::function<int()> &run)
+  {
+    // Its own communicator: the barrier of a rank that failed must not meet
+    // a collective operation of a rank that runs on.
+    MPI_Comm errors;
+    MPI_Comm_dup(communicator, &errors);
+
+    int                        code = 1;
+    std::optional<std::string> error;
+    try
+      {
+        code = run();
+      }
+    catch (const std::exception &exception)
+      {
+        error = error_text(exception);
+      }
+    catch (...)
+      {
+        error = "an exception of unknown type.";
+      }
+
+    if (error)
+      {
+        if (!all_ranks_arrive(errors))
+          {
+            print_error(*error);
+            MPI_Abort(communicator, 1);
+          }
+        print_errors_of_all_ranks(errors, *error);
+        code = 1;
+      }
+    MPI_Comm_free(&errors);
+    return code;
+  }
+
+
+  void
+  run_on_root(const MPI_Comm               communicator,
+              const std::function<void()> &function)
+  {
+    std::string error;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+        {
+          function();
+        }
+      catch (const std::exception &exception)
+        {
+          error = error_text(exception);
+        }
+    error = Utilities::MPI::broadcast(communicator, error);
+    AssertThrow(error.empty(), ExcMessage(error));
+  }
+} // namespace Nacre

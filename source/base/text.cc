@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace Nacre::Text
+{
+  using dealii::ExcMessage;
+
+  namespace
+  {
+    std::string
+    lower_case(std::string text)
+    {
+      for (char &c : text)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      return text;
+    }
+
+    /**
+     * Number of insertions, deletions, replacements and swaps of neighbours
+     * that make @p b of @p a (optimal string alignment).
+     */
+    std::size_t
+    edit_distance(const std::string &a, const std::string &b)
+    {
+      const std::size_t                     n = a.size(), m = b.size();
+      std::vector<std::vector<std::size_t>> d(n + 1,
+                                              std::vector<std::size_t>(m + 1));
+      for (std::size_t i = 0; i <= n; ++i)
+        d[i][0] = i;
+      std::iota(d[0].begin(), d[0].end(), 0);
+      for (std::size_t i = 1; i <= n; ++i)
+        for (std::size_t j = 1; j <= m; ++j)
+          {
+            d[i][j] = std::min({d[i - 1][j] + 1,
+                                d[i][j - 1] + 1,
+                                d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+              d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+          }
+      return d[n][m];
+    }
+
+    /** One name within the other, as "sphere" in "hemisphere". */
+    bool
+    one_holds_the_other(const std::string &a, const std::string &b)
+    {
+      return std::min(a.size(), b.size()) >= 3 &&
+             (a.find(b) != std::string::npos || b.find(a) != std::string::npos);
+    }
+  } // namespace
+
+
+  std::string
+  trim(const std::string &text)
+  {
+    const char *const space = " \t\n\r\f\v";
+    const auto        begin = text.find_first_not_of(space);
+    if (begin == std::string::npos)
+      return "";
+    return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+  }
+
+
+  std::vector<std::string>
+  split(const std::string &text, const char separator, const std::string &where)
+  {
+    std::vector<std::string> parts;
+    if (trim(text).empty())
+      return parts;
+    int         depth = 0;
+    std::string part;
+    for (const char c : text)
+      {
+        depth += (c == '(') - (c == ')');
+        AssertThrow(depth >= 0,
+                    ExcMessage(where + ": '" + trim(text) +
+                               "' has a ')' without '('."));
+        if (c == separator && depth == 0)
+          {
+            parts.push_back(trim(part));
+            part.clear();
+          }
+        else
+          part += c;
+      }
+    AssertThrow(depth == 0,
+                ExcMessage(where + ": '" + trim(text) +
+                           "' has a '(' without ')'."));
+    parts.push_back(trim(part));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      AssertThrow(!parts[i].empty(),
+                  ExcMessage(where + ": part " + std::to_string(i + 1) +
+                             " of '" + trim(text) +
+                             "' is empty; the parts are separated by '" +
+                             separator + "'."));
+    return parts;
+  }
+
+
+  std::pair<std::string, std::string>
+  key_and_value(const std::string &text)
+  {
+    int depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        depth += (text[i] == '(') - (text[i] == ')');
+        if (text[i] != '=' || depth != 0)
+          continue;
+        if (i + 1 < text.size() && text[i + 1] == '=')
+          ++i; // ==
+        else if (i == 0 ||
+                 std::string("<>!").find(text[i - 1]) == std::string::npos)
+          return {trim(text.substr(0, i)), trim(text.substr(i + 1))};
+      }
+    return {trim(text), ""};
+  }
+
+
+  std::vector<std::string>
+  nearest(const std::string              &name,
+          const std::vector<std::string> &candidates,
+          const unsigned int              n_max)
+  {
+    const std::string wanted = lower_case(trim(name));
+    // A single letter is near to the same letter in the other case only.
+    const std::size_t limit = (wanted.size() + 1) / 3;
+    std::vector<std::pair<std::size_t, std::string>> found;
+    for (const auto &candidate : candidates)
+      {
+        const std::string known    = lower_case(candidate);
+        std::size_t       distance = edit_distance(wanted, known);
+        if (one_holds_the_other(wanted, known))
+          distance = std::min(distance, limit);
+        if (distance <= limit)
+          found.emplace_back(distance, candidate);
+      }
+    std::stable_sort(found.begin(),
+                     found.end(),
+                     [](const auto &a, const auto &b) {
+                       return a.first < b.first;
+                     });
+    std::vector<std::string> result;
+    for (const auto &entry : found)
+      if (result.size() < n_max &&
+          std::find(result.begin(), result.end(), entry.second) == result.end())
+        result.push_back(entry.second);
+    return result;
+  }
+
+
+  std::string
+  unknown_name(const std::string              &where,
+               const std::string              &kind,
+               const std::string              &name,
+               const std::vector<std::string> &candidates)
+  {
+    std::string message      = where + ": unknown " + kind + " '" + name + "'.";
+    const auto  near         = nearest(name, candidates);
+    const std::size_t n_near = near.size();
+    for (std::size_t i = 0; i < n_near; ++i)
+      message += (i == 0          ? " Did you mean '" :
+                  i + 1 == n_near ? " or '" :
+                                    ", '") +
+                 near[i] + "'";
+    if (n_near > 0)
+      message += "?";
+    if (candidates.empty())
+      return message + " None is known here.";
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      message += (i == 0 ? " Known: " : ", ") + candidates[i];
+    return message + ".";
+  }
+} // namespace Nacre::Text

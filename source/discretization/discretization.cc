@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/discretization.h>
+#include <nacre/problem/midsurface.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <limits>
+
+namespace Nacre
+{
+  namespace
+  {
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+    checked(
+      std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation)
+    {
+      Assert(triangulation != nullptr, ExcInternalError());
+      return triangulation;
+    }
+
+    /** Constraints of hanging nodes of a handler on its relevant dofs. */
+    AffineConstraints<double>
+    make_hanging_node_constraints(const DoFHandler<dim, spacedim> &dof_handler)
+    {
+      AffineConstraints<double> constraints(
+        DoFTools::extract_locally_relevant_dofs(dof_handler));
+      DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+      constraints.close();
+      return constraints;
+    }
+
+    /** Point and derivatives of a mid-surface given by nodes. */
+    struct LocalSurface
+    {
+      const FE_Q<dim, spacedim>          &fe;
+      const std::vector<Point<spacedim>> &nodes;
+
+      Point<spacedim>
+      position(const Point<dim> &unit) const
+      {
+        Point<spacedim> x;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          x += fe.shape_value(a, unit) * nodes[a];
+        return x;
+      }
+
+      std::array<Tensor<1, spacedim>, dim>
+      tangents(const Point<dim> &unit) const
+      {
+        std::array<Tensor<1, spacedim>, dim> tangents;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          {
+            const auto gradient = fe.shape_grad(a, unit);
+            for (unsigned int alpha = 0; alpha < dim; ++alpha)
+              tangents[alpha] += gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
+          }
+        return tangents;
+      }
+    };
+
+    /**
+     * The unit point of the nearest point to @p target on one cell: projected
+     * Gauss-Newton from @p start.
+     */
+    Point<dim>
+    project(const LocalSurface    &surface,
+            const Point<spacedim> &target,
+            Point<dim>             start)
+    {
+      for (unsigned int iteration = 0; iteration < 30; ++iteration)
+        {
+          const auto   difference = target - surface.position(start);
+          const auto   a          = surface.tangents(start);
+          const double a_11 = a[0] * a[0], a_22 = a[1] * a[1],
+                       a_12 = a[0] * a[1];
+          const double b_1 = a[0] * difference, b_2 = a[1] * difference;
+          const double det  = a_11 * a_22 - a_12 * a_12;
+          Point<dim>   next = start;
+          next[0] += (a_22 * b_1 - a_12 * b_2) / det;
+          next[1] += (a_11 * b_2 - a_12 * b_1) / det;
+          // Along an active bound the other coordinate moves alone.
+          if (next[0] < 0. || next[0] > 1.)
+            next[1] = start[1] + b_2 / a_22;
+          if (next[1] < 0. || next[1] > 1.)
+            next[0] = start[0] + b_1 / a_11;
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            next[alpha] = std::min(1., std::max(0., next[alpha]));
+          const double step = next.distance(start);
+          start             = next;
+          if (step < 1e-14)
+            break;
+        }
+      return start;
+    }
+  } // namespace
+
+  Discretization::Discretization(const Midsurface  &midsurface,
+                                 const MPI_Comm     communicator,
+                                 const unsigned int degree,
+                                 const unsigned int mapping_degree,
+                                 const unsigned int n_refinements)
+    : Discretization(
+        midsurface.create_triangulation(communicator, n_refinements),
+        [&midsurface](const auto &cell, const auto &unit) {
+          return midsurface.position(cell, unit);
+        },
+        degree,
+        mapping_degree)
+  {}
+
+  Discretization::Discretization(
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
+    const std::function<Point<spacedim>(
+      const Triangulation<dim, spacedim>::cell_iterator &,
+      const Point<dim> &)>                                     &position,
+    const unsigned int                                          degree,
+    const unsigned int                                          mapping_degree)
+    : triangulation_(checked(std::move(triangulation)))
+    , mapping_degree_(mapping_degree == 0 ? degree : mapping_degree)
+    , scalar_fe_(degree)
+    , fe_(scalar_fe_, spacedim)
+    , dof_handler_(*triangulation_)
+    , geometry_fe_(FE_Q<dim, spacedim>(mapping_degree_), spacedim)
+    , geometry_dof_handler_(*triangulation_)
+  {
+    dof_handler_.distribute_dofs(fe_);
+    locally_owned_dofs_    = dof_handler_.locally_owned_dofs();
+    locally_relevant_dofs_ = DoFTools::extract_locally_relevant_dofs(dof_handler_);
+    hanging_node_constraints_ = make_hanging_node_constraints(dof_handler_);
+
+    node_dofs_.resize(fe_.n_dofs_per_cell());
+    for (unsigned int i = 0; i < fe_.n_dofs_per_cell(); ++i)
+      {
+        const auto [c, a]           = fe_.system_to_component_index(i);
+        node_dofs_[spacedim * a + c] = i;
+      }
+    build_geometry(position);
+  }
+
+  void
+  Discretization::build_geometry(
+    const std::function<
+      Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
+                      const Point<dim> &)> &position)
+  {
+    geometry_dof_handler_.distribute_dofs(geometry_fe_);
+    const auto &scalar_geometry_fe = geometry_fe_.base_element(0);
+    geometry_to_nodes_.reinit(scalar_fe_.n_dofs_per_cell(),
+                              scalar_geometry_fe.n_dofs_per_cell());
+    for (unsigned int a = 0; a < geometry_to_nodes_.m(); ++a)
+      for (unsigned int b = 0; b < geometry_to_nodes_.n(); ++b)
+        geometry_to_nodes_(a, b) =
+          scalar_geometry_fe.shape_value(b, scalar_fe_.unit_support_point(a));
+
+    const IndexSet &owned = geometry_dof_handler_.locally_owned_dofs();
+    geometry_.reinit(owned,
+                     DoFTools::extract_locally_relevant_dofs(
+                       geometry_dof_handler_),
+                     communicator());
+
+    std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
+    for (const auto &cell : geometry_dof_handler_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (owned.is_element(dofs[i]))
+              geometry_(dofs[i]) =
+                position(cell, geometry_fe_.unit_support_point(i))
+                  [geometry_fe_.system_to_component_index(i).first];
+        }
+    geometry_.update_ghost_values();
+    // Without this, the faces of curved cells on both sides of a hanging edge
+    // differ, and rigid rotations get an energy.
+    geometry_.zero_out_ghost_values();
+    make_hanging_node_constraints(geometry_dof_handler_).distribute(geometry_);
+    geometry_.update_ghost_values();
+
+    mapping_ = std::make_unique<MappingQCache<dim, spacedim>>(mapping_degree_);
+    mapping_->initialize(MappingQ<dim, spacedim>(1),
+                         geometry_dof_handler_,
+                         geometry_,
+                         false);
+  }
+
+  unsigned int
+  Discretization::degree() const
+  {
+    return scalar_fe_.degree;
+  }
+
+  MPI_Comm
+  Discretization::communicator() const
+  {
+    return triangulation_->get_communicator();
+  }
+
+  const parallel::TriangulationBase<dim, spacedim> &
+  Discretization::triangulation() const
+  {
+    return *triangulation_;
+  }
+
+  const Mapping<dim, spacedim> &
+  Discretization::mapping() const
+  {
+    return *mapping_;
+  }
+
+  const DoFHandler<dim, spacedim> &
+  Discretization::dof_handler() const
+  {
+    return dof_handler_;
+  }
+
+  const FE_Q<dim, spacedim> &
+  Discretization::scalar_fe() const
+  {
+    return scalar_fe_;
+  }
+
+  const std::vector<unsigned int> &
+  Discretization::node_dofs() const
+  {
+    return node_dofs_;
+  }
+
+  const IndexSet &
+  Discretization::locally_owned_dofs() const
+  {
+    return locally_owned_dofs_;
+  }
+
+  const IndexSet &
+  Discretization::locally_relevant_dofs() const
+  {
+    return locally_relevant_dofs_;
+  }
+
+  const AffineConstraints<double> &
+  Discretization::hanging_node_constraints() const
+  {
+    return hanging_node_constraints_;
+  }
+
+  std::vector<Point<spacedim>>
+  Discretization::node_positions(
+    const Triangulation<dim, spacedim>::active_cell_iterator &cell) const
+  {
+    const DoFHandler<dim, spacedim>::active_cell_iterator geometry_cell(
+      triangulation_.get(), cell->level(), cell->index(), &geometry_dof_handler_);
+    std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
+    geometry_cell->get_dof_indices(dofs);
+
+    std::vector<Point<spacedim>> positions(scalar_fe_.n_dofs_per_cell());
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const auto [c, b] = geometry_fe_.system_to_component_index(i);
+        for (unsigned int a = 0; a < positions.size(); ++a)
+          positions[a][c] += geometry_(dofs[i]) * geometry_to_nodes_(a, b);
+      }
+    return positions;
+  }
+
+  SurfacePoint
+  Discretization::locate(const Point<spacedim> &point) const
+  {
+    SurfacePoint best;
+    best.distance = std::numeric_limits<double>::max();
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto         nodes = node_positions(cell);
+          const double       size  = BoundingBox<spacedim>(nodes).side_length(0) +
+                              BoundingBox<spacedim>(nodes).side_length(1) +
+                              BoundingBox<spacedim>(nodes).side_length(2);
+          const auto nearest = std::min_element(
+            nodes.begin(), nodes.end(), [&](const auto &x, const auto &y) {
+              return x.distance(point) < y.distance(point);
+            });
+          if (nearest->distance(point) - size >= best.distance)
+            continue;
+          const LocalSurface surface{scalar_fe_, nodes};
+          const Point<dim>   unit =
+            project(surface,
+                    point,
+                    scalar_fe_.unit_support_point(nearest - nodes.begin()));
+          const Point<spacedim> position = surface.position(unit);
+          // The first of several cells that share the point keeps it.
+          if (position.distance(point) < best.distance - 1e-10 * size)
+            {
+              best.cell          = cell;
+              best.unit          = unit;
+              best.position      = position;
+              best.distance      = position.distance(point);
+              best.cell_diameter = size;
+            }
+        }
+
+    const auto global =
+      Utilities::MPI::min_max_avg(best.distance, communicator());
+    best.is_mine = (Utilities::MPI::this_mpi_process(communicator()) ==
+                    global.min_index);
+    const auto data = Utilities::MPI::broadcast(
+      communicator(),
+      std::make_pair(best.position,
+                     std::make_pair(best.distance, best.cell_diameter)),
+      global.min_index);
+    best.position      = data.first;
+    best.distance      = data.second.first;
+    best.cell_diameter = data.second.second;
+    return best;
+  }
+
+  std::pair<Point<spacedim>, double>
+  Discretization::extent() const
+  {
+    Point<spacedim> low, high;
+    for (unsigned int c = 0; c < spacedim; ++c)
+      {
+        low[c]  = std::numeric_limits<double>::max();
+        high[c] = std::numeric_limits<double>::lowest();
+      }
+    for (const auto &cell : triangulation_->active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const auto &x : node_positions(cell))
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              low[c]  = std::min(low[c], x[c]);
+              high[c] = std::max(high[c], x[c]);
+            }
+    for (unsigned int c = 0; c < spacedim; ++c)
+      {
+        low[c]  = Utilities::MPI::min(low[c], communicator());
+        high[c] = Utilities::MPI::max(high[c], communicator());
+      }
+    return {low + 0.5 * (high - low), high.distance(low)};
+  }
+} // namespace Nacre

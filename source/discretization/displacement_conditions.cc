@@ -1,0 +1,523 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/displacement_conditions.h>
+
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    Vector3
+    unit(const Vector3 &v)
+    {
+      return v / v.norm();
+    }
+
+    Vector3
+    axis(const unsigned int c)
+    {
+      Vector3 e;
+      e[c] = 1.;
+      return e;
+    }
+
+    std::string
+    in_words(const Vector3 &v)
+    {
+      std::ostringstream text;
+      text.precision(4);
+      text << '(';
+      for (unsigned int c = 0; c < spacedim; ++c)
+        text << (c > 0 ? ", " : "")
+             << (std::abs(v[c]) < 1e-10 ? 0. : v[c]);
+      text << ')';
+      return text.str();
+    }
+
+    /** Eigenvalues, ascending, and eigenvectors (columns) of A. */
+    std::pair<Vector<double>, FullMatrix<double>>
+    eigenpairs(const FullMatrix<double> &A)
+    {
+      LAPACKFullMatrix<double> lapack(A.m());
+      lapack = A;
+      std::pair<Vector<double>, FullMatrix<double>> result;
+      const double bound = 1. + 2. * A.frobenius_norm();
+      lapack.compute_eigenvalues_symmetric(
+        -bound, bound, 0., result.first, result.second);
+      return result;
+    }
+  } // namespace
+
+  DisplacementConditions::DisplacementConditions(
+    const Discretization     &discretization,
+    const BoundaryConditions &boundary_conditions)
+    : discretization_(discretization)
+    , boundary_conditions_(boundary_conditions)
+    , constraints_(discretization.locally_relevant_dofs())
+  {
+    constraints_.merge(discretization.hanging_node_constraints());
+    add_edge_conditions(collect_edge_nodes());
+    add_point_supports();
+    for (const auto &node : nodes_)
+      constrain(node.second);
+    constraints_.close();
+  }
+
+  std::vector<DisplacementConditions::EdgeNode>
+  DisplacementConditions::collect_edge_nodes() const
+  {
+    const auto &fe        = discretization_.scalar_fe();
+    const auto &node_dofs = discretization_.node_dofs();
+
+    FE_Nothing<dim, spacedim> fe_nothing;
+    FEValues<dim, spacedim>   fe_values(discretization_.mapping(),
+                                      fe_nothing,
+                                      fe.get_unit_support_points(),
+                                      update_jacobians |
+                                        update_quadrature_points);
+    // dofs, id, position, normal, conormal: plain numbers for the exchange.
+    std::vector<double>                  mine;
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    for (const auto &cell :
+         discretization_.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const auto face : cell->face_indices())
+          {
+            if (!cell->at_boundary(face) ||
+                boundary_conditions_.edges().count(
+                  cell->face(face)->boundary_id()) == 0)
+              continue;
+            fe_values.reinit(
+              static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell));
+            cell->get_dof_indices(dofs);
+            for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+              if (fe.has_support_on_face(a, face))
+                {
+                  const auto &J = fe_values.jacobian(a);
+                  Vector3     a_1, a_2;
+                  for (unsigned int c = 0; c < spacedim; ++c)
+                    {
+                      a_1[c] = J[c][0];
+                      a_2[c] = J[c][1];
+                    }
+                  // Faces 0, 1 run along xi2, faces 2, 3 along xi1.
+                  const Vector3 normal = unit(cross_product_3d(a_1, a_2));
+                  const Vector3 along  = face < 2 ? a_2 : a_1;
+                  Vector3 conormal = unit(cross_product_3d(along, normal));
+                  if (conormal * (face < 2 ? a_1 : a_2) *
+                        (face % 2 == 1 ? 1. : -1.) <
+                      0.)
+                    conormal *= -1.;
+                  for (unsigned int c = 0; c < spacedim; ++c)
+                    mine.push_back(dofs[node_dofs[spacedim * a + c]]);
+                  mine.push_back(cell->face(face)->boundary_id());
+                  for (const auto &v :
+                       {Vector3(fe_values.quadrature_point(a)),
+                        normal,
+                        conormal})
+                    mine.insert(mine.end(), v.begin_raw(), v.end_raw());
+                }
+          }
+
+    std::vector<EdgeNode> nodes;
+    for (const auto &numbers :
+         Utilities::MPI::all_gather(discretization_.communicator(), mine))
+      for (unsigned int k = 0; k < numbers.size(); k += 13)
+        {
+          EdgeNode node;
+          node.id = static_cast<types::boundary_id>(numbers[k + 3]);
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              node.dofs[c] =
+                static_cast<types::global_dof_index>(numbers[k + c]);
+              node.position[c] = numbers[k + 4 + c];
+              node.normal[c]   = numbers[k + 7 + c];
+              node.conormal[c] = numbers[k + 10 + c];
+            }
+          nodes.push_back(node);
+        }
+    // A node has the same mean directions on any number of ranks.
+    std::sort(nodes.begin(), nodes.end(), [](const auto &a, const auto &b) {
+      return std::lexicographical_compare(a.conormal.begin_raw(),
+                                          a.conormal.end_raw(),
+                                          b.conormal.begin_raw(),
+                                          b.conormal.end_raw());
+    });
+    return nodes;
+  }
+
+  std::vector<DisplacementConditions::EdgeNode>
+  DisplacementConditions::average(const std::vector<EdgeNode> &nodes)
+  {
+    std::map<std::pair<types::boundary_id, types::global_dof_index>, EdgeNode>
+      means;
+    for (const auto &node : nodes)
+      {
+        const auto [entry, is_new] =
+          means.emplace(std::make_pair(node.id, node.dofs[0]), node);
+        if (!is_new)
+          {
+            entry->second.normal += node.normal;
+            entry->second.conormal += node.conormal;
+          }
+      }
+    std::vector<EdgeNode> result;
+    for (auto &[key, node] : means)
+      {
+        node.normal   = unit(node.normal);
+        node.conormal = unit(node.conormal);
+        result.push_back(node);
+      }
+    return result;
+  }
+
+  Tensor<1, spacedim>
+  DisplacementConditions::plane_normal(const std::vector<EdgeNode> &nodes,
+                                       const types::boundary_id     id,
+                                       const std::string &source) const
+  {
+    const double        tolerance = 1e-8 * discretization_.extent().second;
+    Point<spacedim>     centre;
+    Vector3             conormal;
+    std::vector<Point<spacedim>> points;
+    for (const auto &node : nodes)
+      if (node.id == id)
+        {
+          points.push_back(node.position);
+          centre += node.position;
+          conormal += node.conormal;
+        }
+    centre /= points.size();
+    const bool across = conormal.norm() > 1e-8 * points.size();
+
+    const auto holds = [&](const Vector3 &normal) {
+      return std::all_of(points.begin(), points.end(), [&](const auto &x) {
+        return std::abs((x - centre) * normal) <= tolerance;
+      });
+    };
+    // A straight edge lies in many planes: the conormal tells, and a
+    // coordinate plane is taken exactly.
+    Vector3 best;
+    double  alignment = 0.;
+    for (unsigned int c = 0; c < spacedim; ++c)
+      if (holds(axis(c)) &&
+          (!across || std::abs(conormal[c]) > alignment * conormal.norm()))
+        {
+          best      = axis(c);
+          alignment = across ? std::abs(conormal[c]) / conormal.norm() : 1.;
+        }
+    if (alignment > 0.9)
+      return best;
+
+    FullMatrix<double> moments(spacedim, spacedim);
+    for (const auto &x : points)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        for (unsigned int d = 0; d < spacedim; ++d)
+          moments(c, d) += (x - centre)[c] * (x - centre)[d];
+    const auto [values, vectors] = eigenpairs(moments);
+    if (values[1] > 1e-12 * values[2])
+      {
+        for (unsigned int c = 0; c < spacedim; ++c)
+          best[c] = vectors(c, 0);
+        AssertThrow(holds(best),
+                    ExcMessage(source + ": the edge lies in no plane, as a "
+                                        "symmetry or diaphragm edge must."));
+        return best;
+      }
+    // Straight and not in a coordinate plane.
+    return unit(conormal);
+  }
+
+  void
+  DisplacementConditions::add_edge_conditions(
+    const std::vector<EdgeNode> &raw_nodes)
+  {
+    const auto nodes = average(raw_nodes);
+    for (const auto &[id, conditions] : boundary_conditions_.edges())
+      {
+        std::map<Direction, Vector3> plane;
+        for (const auto &condition : conditions.displacements)
+          if (condition.direction == Direction::plane_normal ||
+              condition.direction == Direction::within_plane)
+            plane[condition.direction] =
+              plane_normal(nodes, id, condition.source);
+
+        for (const auto &edge_node : nodes)
+          {
+            if (edge_node.id != id)
+              continue;
+            if (conditions.rotation != nullptr)
+              // theta = t0 . (omega x n) = omega . (n x t0)
+              rotation_axes_.push_back(
+                cross_product_3d(edge_node.conormal, edge_node.normal));
+            Node &node    = nodes_[edge_node.dofs[0]];
+            node.position = edge_node.position;
+            node.dofs     = edge_node.dofs;
+            for (const auto &condition : conditions.displacements)
+              {
+                std::vector<Vector3> directions;
+                switch (condition.direction)
+                  {
+                    case Direction::x:
+                    case Direction::y:
+                    case Direction::z:
+                      directions = {
+                        axis(static_cast<unsigned int>(condition.direction))};
+                      break;
+                    case Direction::normal:
+                      directions = {edge_node.normal};
+                      break;
+                    case Direction::conormal:
+                      directions = {edge_node.conormal};
+                      break;
+                    case Direction::tangent:
+                      directions = {cross_product_3d(edge_node.normal,
+                                                     edge_node.conormal)};
+                      break;
+                    case Direction::plane_normal:
+                      directions = {plane[condition.direction]};
+                      break;
+                    case Direction::within_plane:
+                      {
+                        const auto  &normal = plane[condition.direction];
+                        unsigned int c      = 0;
+                        for (unsigned int d = 1; d < spacedim; ++d)
+                          if (std::abs(normal[d]) < std::abs(normal[c]))
+                            c = d;
+                        const auto first =
+                          unit(axis(c) - normal[c] * normal);
+                        directions = {first, cross_product_3d(normal, first)};
+                        break;
+                      }
+                  }
+                for (const auto &direction : directions)
+                  node.components.push_back(
+                    {direction,
+                     condition.value(edge_node.position),
+                     &condition.source});
+              }
+          }
+      }
+  }
+
+  void
+  DisplacementConditions::add_point_supports()
+  {
+    const auto  communicator = discretization_.communicator();
+    const auto &node_dofs    = discretization_.node_dofs();
+    for (const auto &support : boundary_conditions_.points())
+      {
+        double              distance = std::numeric_limits<double>::max();
+        std::vector<double> found(2 * spacedim);
+        std::vector<types::global_dof_index> dofs(node_dofs.size());
+        for (const auto &cell :
+             discretization_.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              const auto nodes = discretization_.node_positions(cell);
+              cell->get_dof_indices(dofs);
+              for (unsigned int a = 0; a < nodes.size(); ++a)
+                if (nodes[a].distance(support.position) < distance)
+                  {
+                    distance = nodes[a].distance(support.position);
+                    for (unsigned int c = 0; c < spacedim; ++c)
+                      {
+                        found[c] = dofs[node_dofs[spacedim * a + c]];
+                        found[spacedim + c] = nodes[a][c];
+                      }
+                  }
+            }
+        const auto best = Utilities::MPI::min_max_avg(distance, communicator);
+        found = Utilities::MPI::broadcast(communicator, found, best.min_index);
+
+        Node node;
+        for (unsigned int c = 0; c < spacedim; ++c)
+          {
+            node.dofs[c]     = static_cast<types::global_dof_index>(found[c]);
+            node.position[c] = found[spacedim + c];
+          }
+        std::ostringstream message;
+        message << support.source << ": no node lies there; the nearest one is ("
+                << node.position[0] << ", " << node.position[1] << ", "
+                << node.position[2] << ").";
+        AssertThrow(best.min <= 1e-6 * discretization_.extent().second,
+                    ExcMessage(message.str()));
+        Node &entry    = nodes_[node.dofs[0]];
+        entry.dofs     = node.dofs;
+        entry.position = node.position;
+        for (const auto &condition : support.displacements)
+          entry.components.push_back(
+            {axis(static_cast<unsigned int>(condition.direction)),
+             condition.value(node.position),
+             &condition.source});
+      }
+  }
+
+  void
+  DisplacementConditions::constrain(const Node &node)
+  {
+    // Orthonormal directions with their values, first come first.
+    std::vector<Component> basis;
+    for (const auto &component : node.components)
+      {
+        Vector3 rest      = component.direction;
+        double  value     = component.value;
+        double  magnitude = std::abs(value);
+        for (const auto &known : basis)
+          {
+            const double part = component.direction * known.direction;
+            rest -= part * known.direction;
+            value -= part * known.value;
+            magnitude += std::abs(part * known.value);
+          }
+        // Mean conormals are no more precise than the geometry's derivatives.
+        if (rest.norm() > 1e-3)
+          basis.push_back({rest / rest.norm(),
+                           value / rest.norm(),
+                           component.source});
+        else
+          {
+            std::ostringstream message;
+            message << "Contradicting conditions at the point ("
+                    << node.position[0] << ", " << node.position[1] << ", "
+                    << node.position[2] << "): '" << *component.source
+                    << "' against '" << *basis.back().source << "'.";
+            AssertThrow(std::abs(value) <= 1e-3 * rest.norm() + 1e-8 * magnitude,
+                        ExcMessage(message.str()));
+          }
+      }
+
+    // Solve for the components with the largest coefficients.
+    std::array<bool, spacedim> solved{{false, false, false}};
+    for (unsigned int k = 0; k < basis.size(); ++k)
+      {
+        unsigned int pivot = numbers::invalid_unsigned_int;
+        for (unsigned int c = 0; c < spacedim; ++c)
+          if (!solved[c] &&
+              (pivot == numbers::invalid_unsigned_int ||
+               std::abs(basis[k].direction[c]) >
+                 std::abs(basis[k].direction[pivot]) + 1e-12))
+            pivot = c;
+        solved[pivot] = true;
+        basis[k].value /= basis[k].direction[pivot];
+        basis[k].direction /= basis[k].direction[pivot];
+        for (unsigned int m = 0; m < basis.size(); ++m)
+          if (m != k)
+            {
+              const double factor = basis[m].direction[pivot];
+              basis[m].direction -= factor * basis[k].direction;
+              basis[m].value -= factor * basis[k].value;
+            }
+      }
+    for (const auto &line : basis)
+      {
+        unsigned int pivot = 0;
+        while (std::abs(line.direction[pivot] - 1.) > 1e-9 || !solved[pivot])
+          ++pivot;
+        solved[pivot]  = false;
+        const auto dof = node.dofs[pivot];
+        if (!discretization_.locally_relevant_dofs().is_element(dof) ||
+            constraints_.is_constrained(dof))
+          continue;
+        constraints_.add_line(dof);
+        for (unsigned int c = 0; c < spacedim; ++c)
+          if (c != pivot && std::abs(line.direction[c]) > 1e-14)
+            constraints_.add_entry(dof, node.dofs[c], -line.direction[c]);
+        constraints_.set_inhomogeneity(dof, line.value);
+      }
+  }
+
+  std::vector<std::string>
+  DisplacementConditions::free_rigid_motions() const
+  {
+    // A rigid motion (tau, omega): u = tau + omega x (X - centre) / length.
+    const auto         extent = discretization_.extent();
+    FullMatrix<double> prevented(2 * spacedim, 2 * spacedim);
+    const auto         prevent = [&](const Vector3 &translation,
+                             const Vector3 &rotation) {
+      std::array<double, 2 * spacedim> row;
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          row[c]            = translation[c];
+          row[spacedim + c] = rotation[c];
+        }
+      for (unsigned int i = 0; i < row.size(); ++i)
+        for (unsigned int j = 0; j < row.size(); ++j)
+          prevented(i, j) += row[i] * row[j];
+    };
+    for (const auto &[dof, node] : nodes_)
+      for (const auto &component : node.components)
+        prevent(component.direction,
+                cross_product_3d((node.position - extent.first) / extent.second,
+                                 component.direction));
+    for (const auto &axis : rotation_axes_)
+      prevent(Vector3(), axis);
+
+    const auto [values, vectors] = eigenpairs(prevented);
+    std::vector<std::array<Vector3, 2>> motions;
+    for (unsigned int k = 0; k < values.size(); ++k)
+      if (values[k] <= 1e-8 * std::max(1., values[values.size() - 1]))
+        {
+          std::array<Vector3, 2> motion;
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              motion[0][c] = vectors(c, k);
+              motion[1][c] = vectors(spacedim + c, k);
+            }
+          motions.push_back(motion);
+        }
+
+    // Combine them so that as many as possible are pure translations:
+    // eliminate rotations, largest components first.
+    std::vector<std::string> names;
+    unsigned int             n_done = 0;
+    for (unsigned int part : {1, 0})
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          unsigned int best = n_done;
+          for (unsigned int k = n_done; k < motions.size(); ++k)
+            if (std::abs(motions[k][part][c]) >
+                std::abs(motions[best][part][c]))
+              best = k;
+          if (n_done == motions.size() ||
+              std::abs(motions[best][part][c]) < 1e-5)
+            continue;
+          std::swap(motions[n_done], motions[best]);
+          const double pivot = motions[n_done][part][c];
+          for (auto &v : motions[n_done])
+            v /= pivot;
+          for (unsigned int k = 0; k < motions.size(); ++k)
+            if (k != n_done)
+              {
+                const double factor = motions[k][part][c];
+                for (unsigned int v = 0; v < 2; ++v)
+                  motions[k][v] -= factor * motions[n_done][v];
+              }
+          ++n_done;
+        }
+    for (const auto &[translation, rotation] : motions)
+      if (rotation.norm() < 1e-5 * translation.norm())
+        names.push_back("translation along " + in_words(unit(translation)));
+      else
+        {
+          // The axis' point nearest to the centre: (omega x tau) / omega^2.
+          const Vector3 point =
+            Vector3(extent.first) + extent.second *
+                                      cross_product_3d(rotation, translation) /
+                                      rotation.norm_square();
+          names.push_back("rotation about " + in_words(unit(rotation)) +
+                          " through " + in_words(point));
+        }
+    return names;
+  }
+} // namespace Nacre

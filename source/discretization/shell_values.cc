@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/shell_values.h>
+#include <nacre/mechanics/shell_strain.h>
+
+#include <deal.II/base/qprojector.h>
+#include <deal.II/base/quadrature_lib.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    const UpdateFlags geometry_flags =
+      update_jacobians | update_jacobian_grads | update_JxW_values |
+      update_quadrature_points;
+
+    /** Column @p alpha of the Jacobian: phi0,alpha. */
+    Tensor<1, spacedim>
+    tangent(const DerivativeForm<1, dim, spacedim> &jacobian,
+            const unsigned int                      alpha)
+    {
+      Tensor<1, spacedim> a;
+      for (unsigned int c = 0; c < spacedim; ++c)
+        a[c] = jacobian[c][alpha];
+      return a;
+    }
+
+    SurfaceFrame<>
+    frame_from(const FEValuesBase<dim, spacedim> &fe_values,
+               const unsigned int                 q)
+    {
+      const auto &gradient = fe_values.jacobian_grad(q);
+
+      std::array<Tensor<1, spacedim>, 3> derivatives;
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          derivatives[0][c] = gradient[c][0][0];
+          derivatives[1][c] = gradient[c][1][1];
+          derivatives[2][c] = gradient[c][0][1];
+        }
+      return make_surface_frame(tangent(fe_values.jacobian(q), 0),
+                                tangent(fe_values.jacobian(q), 1),
+                                derivatives);
+    }
+
+    /** Lagrange polynomial k of the @p nodes at @p x. */
+    double
+    lagrange(const std::vector<Point<1>> &nodes,
+             const unsigned int           k,
+             const double                 x)
+    {
+      double value = 1.;
+      for (unsigned int m = 0; m < nodes.size(); ++m)
+        if (m != k)
+          value *= (x - nodes[m][0]) / (nodes[k][0] - nodes[m][0]);
+      return value;
+    }
+
+    /** Gauss points along xi1 and xi2 that the component 11, 22, 12 needs. */
+    std::array<unsigned int, 2>
+    n_tying_points(const unsigned int component, const unsigned int degree)
+    {
+      return {{component == 1 ? degree + 1 : degree,
+               component == 0 ? degree + 1 : degree}};
+    }
+  } // namespace
+
+  ShellCellValues::ShellCellValues(const Discretization  &discretization,
+                                   const Quadrature<dim> &quadrature,
+                                   const bool             tied)
+    : discretization_(discretization)
+    , quadrature_(quadrature)
+    , tied_(tied)
+    , fe_values_(discretization.mapping(),
+                 fe_nothing_,
+                 quadrature,
+                 geometry_flags)
+    , tying_fe_values_(discretization.mapping(),
+                       fe_nothing_,
+                       tying_points(discretization.degree()),
+                       update_jacobians)
+    , shapes_(discretization.scalar_fe(), quadrature.get_points())
+    , tying_shapes_(discretization.scalar_fe(),
+                    tying_fe_values_.get_quadrature().get_points())
+    , frames_(quadrature.size())
+    , membrane_rows_(3 * quadrature.size(), n_dofs())
+    , bending_rows_(3 * quadrature.size(), n_dofs())
+    , tying_rows_(tying_fe_values_.n_quadrature_points, n_dofs())
+  {
+    make_tyings(quadrature);
+  }
+
+  ShellCellValues::ShellCellValues(const ShellCellValues &other)
+    : ShellCellValues(other.discretization_, other.quadrature_, other.tied_)
+  {}
+
+  Quadrature<dim>
+  ShellCellValues::tying_points(const unsigned int degree)
+  {
+    std::vector<Point<dim>> points;
+    for (unsigned int component = 0; component < 3; ++component)
+      {
+        const auto n  = n_tying_points(component, degree);
+        const auto xs = QGauss<1>(n[0]).get_points();
+        const auto ys = QGauss<1>(n[1]).get_points();
+        for (const auto &y : ys)
+          for (const auto &x : xs)
+            points.emplace_back(x[0], y[0]);
+      }
+    return Quadrature<dim>(points);
+  }
+
+  void
+  ShellCellValues::make_tyings(const Quadrature<dim> &quadrature)
+  {
+    unsigned int first = 0;
+    for (unsigned int component = 0; component < 3; ++component)
+      {
+        const auto n  = n_tying_points(component, discretization_.degree());
+        const auto xs = QGauss<1>(n[0]).get_points();
+        const auto ys = QGauss<1>(n[1]).get_points();
+
+        Tying &tying = tyings_[component];
+        tying.first  = first;
+        tying.weights.resize(quadrature.size());
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          for (unsigned int j = 0; j < n[1]; ++j)
+            for (unsigned int i = 0; i < n[0]; ++i)
+              {
+                const double weight = lagrange(xs, i, quadrature.point(q)[0]) *
+                                      lagrange(ys, j, quadrature.point(q)[1]);
+                if (std::abs(weight) > 1e-13)
+                  tying.weights[q].emplace_back(j * n[0] + i, weight);
+              }
+        first += n[0] * n[1];
+      }
+  }
+
+  void
+  ShellCellValues::reinit(
+    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  {
+    fe_values_.reinit(cell);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      frames_[q] = frame_from(fe_values_, q);
+    if (tied_)
+      {
+        tying_fe_values_.reinit(cell);
+        fill_tied_membrane_rows();
+      }
+    else
+      fill_membrane_rows();
+    fill_bending_rows();
+  }
+
+  void
+  ShellCellValues::fill_membrane_rows()
+  {
+    for (unsigned int q = 0; q < n_points(); ++q)
+      for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+        {
+          const auto &dN    = shapes_.gradient(q, a);
+          const auto &a_cov = frames_[q].a_cov;
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              const unsigned int i           = dof(a, c);
+              membrane_rows_(3 * q, i)       = a_cov[0][c] * dN[0];
+              membrane_rows_(3 * q + 1, i)   = a_cov[1][c] * dN[1];
+              membrane_rows_(3 * q + 2, i)   =
+                a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
+            }
+        }
+  }
+
+  void
+  ShellCellValues::fill_tied_membrane_rows()
+  {
+    for (unsigned int component = 0; component < 3; ++component)
+      {
+        const unsigned int first = tyings_[component].first;
+        const unsigned int last =
+          component < 2 ? tyings_[component + 1].first : tying_rows_.m();
+        for (unsigned int k = first; k < last; ++k)
+          {
+            const auto &jacobian = tying_fe_values_.jacobian(k);
+            for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+              {
+                const auto &dN = tying_shapes_.gradient(k, a);
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  tying_rows_(k, dof(a, c)) =
+                    component < 2 ? jacobian[c][component] * dN[component] :
+                                    jacobian[c][0] * dN[1] +
+                                      jacobian[c][1] * dN[0];
+              }
+          }
+        for (unsigned int q = 0; q < n_points(); ++q)
+          {
+            double *row = &membrane_rows_(3 * q + component, 0);
+            std::fill(row, row + n_dofs(), 0.);
+            for (const auto &[k, weight] : tyings_[component].weights[q])
+              {
+                const double *sample = &tying_rows_(first + k, 0);
+                for (unsigned int i = 0; i < tying_rows_.n(); ++i)
+                  row[i] += weight * sample[i];
+              }
+          }
+      }
+  }
+
+  void
+  ShellCellValues::fill_bending_rows()
+  {
+    for (unsigned int q = 0; q < n_points(); ++q)
+      for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+        {
+          const auto strain =
+            ShellStrain::bending_of_shape_function(frames_[q],
+                                                   shapes_.gradient(q, a),
+                                                   shapes_.hessian(q, a));
+          for (unsigned int c = 0; c < spacedim; ++c)
+            for (unsigned int v = 0; v < 3; ++v)
+              bending_rows_(3 * q + v, dof(a, c)) =
+                strain[v] * frames_[q].t0[c];
+        }
+  }
+
+  ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
+    : discretization_(discretization)
+    , quadrature_(QGauss<1>(discretization.degree() + 1))
+    , interface_values_(discretization.mapping(),
+                        discretization.dof_handler().get_fe(),
+                        QGauss<1>(discretization.degree() + 1),
+                        geometry_flags | update_normal_vectors)
+  {
+    const auto  cell   = ReferenceCells::Quadrilateral;
+    const auto &fe     = discretization.scalar_fe();
+    auto        points = std::vector<Point<dim>>(quadrature_.size());
+    tables_.resize(cell.n_faces());
+    for (unsigned int face = 0; face < cell.n_faces(); ++face)
+      {
+        for (unsigned int subface = 0; subface < 2; ++subface)
+          {
+            QProjector<dim>::project_to_subface(
+              cell, quadrature_, face, subface, points);
+            tables_[face].emplace_back(fe, points);
+          }
+        QProjector<dim>::project_to_face(cell, quadrature_, face, points);
+        tables_[face].emplace_back(fe, points);
+      }
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        frames_[side].resize(quadrature_.size());
+        joint_dofs_[side].resize(discretization.node_dofs().size());
+      }
+  }
+
+  ShellEdgeValues::ShellEdgeValues(const ShellEdgeValues &other)
+    : ShellEdgeValues(other.discretization_)
+  {}
+
+  void
+  ShellEdgeValues::reinit(const cell_iterator &cell,
+                          const unsigned int   face,
+                          const unsigned int   subface,
+                          const cell_iterator &neighbor,
+                          const unsigned int   neighbor_face,
+                          const unsigned int   neighbor_subface)
+  {
+    interface_values_.reinit(
+      cell, face, subface, neighbor, neighbor_face, neighbor_subface);
+    n_sides_ = 2;
+    update({{face, neighbor_face}}, {{subface, neighbor_subface}});
+  }
+
+  void
+  ShellEdgeValues::reinit(const cell_iterator &cell, const unsigned int face)
+  {
+    interface_values_.reinit(cell, face);
+    n_sides_ = 1;
+    update({{face, numbers::invalid_unsigned_int}},
+           {{numbers::invalid_unsigned_int, numbers::invalid_unsigned_int}});
+  }
+
+  void
+  ShellEdgeValues::update(const std::array<unsigned int, 2> &faces,
+                          const std::array<unsigned int, 2> &subfaces)
+  {
+    dof_indices_ = interface_values_.get_interface_dof_indices();
+
+    // Invert the map from joint dofs to the dofs of the sides.
+    std::array<std::vector<unsigned int>, 2> joint;
+    for (unsigned int side = 0; side < n_sides_; ++side)
+      joint[side].resize(joint_dofs_[side].size());
+    for (unsigned int i = 0; i < dof_indices_.size(); ++i)
+      {
+        const auto local = interface_values_.interface_dof_to_dof_indices(i);
+        for (unsigned int side = 0; side < n_sides_; ++side)
+          if (local[side] != numbers::invalid_unsigned_int)
+            joint[side][local[side]] = i;
+      }
+
+    const auto &node_dofs = discretization_.node_dofs();
+    for (unsigned int side = 0; side < n_sides_; ++side)
+      {
+        for (unsigned int k = 0; k < node_dofs.size(); ++k)
+          joint_dofs_[side][k] = joint[side][node_dofs[k]];
+        const bool whole = (subfaces[side] == numbers::invalid_unsigned_int);
+        shapes_[side]    = &tables_[faces[side]][whole ? 2 : subfaces[side]];
+        for (unsigned int q = 0; q < n_points(); ++q)
+          frames_[side][q] =
+            frame_from(interface_values_.get_fe_face_values(side), q);
+      }
+  }
+
+  double
+  ShellEdgeValues::sigma(const unsigned int side, const unsigned int q) const
+  {
+    if (side == 0)
+      return 1.;
+    const auto direction = [&](const unsigned int s) {
+      return cross_product_3d(conormal(s, q), frames_[s][q].t0);
+    };
+    return direction(1) * direction(0) > 0. ? 1. : -1.;
+  }
+} // namespace Nacre

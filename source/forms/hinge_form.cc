@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mutation.h>
+
+#include <nacre/forms/hinge_form.h>
+#include <nacre/mechanics/shell_strain.h>
+
+namespace Nacre
+{
+  void
+  HingeSide::reinit(const ShellEdgeValues &edge,
+                    const unsigned int     side,
+                    const unsigned int     q,
+                    const SectionLaw      &section)
+  {
+    const auto  &frame  = edge.frame(side, q);
+    const auto  &shapes = edge.shapes(side);
+    const auto   nu     = edge.conormal(side, q);
+    const double sigma  = NACRE_MUTABLE(sigma, edge.sigma(side, q), 1.);
+
+    // Components of the dyad nu nu, and of the moment it cuts out:
+    // m_nn = nu . H_m rho . nu = (H_m nu nu) : rho.
+    const auto dyad = ShellStrain::dyad_of(frame, nu);
+    const auto H_nu = section.stiffness(frame, edge.point(q)).bending * dyad;
+    const double nu_1 = frame.a_con[0] * nu;
+    const double nu_2 = frame.a_con[1] * nu;
+
+    t0        = frame.t0;
+    stiffness = dyad * H_nu;
+    rotation.resize(shapes.n_nodes());
+    moment.resize(shapes.n_nodes());
+    for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+      {
+        const auto &dN = shapes.gradient(q, a);
+        rotation[a]    = sigma * (nu_1 * dN[0] + nu_2 * dN[1]);
+        moment[a] =
+          sigma * (H_nu * ShellStrain::bending_of_shape_function(
+                            frame, dN, shapes.hessian(q, a)));
+      }
+  }
+
+  void
+  HingePoint::reinit(const ShellEdgeValues &edge,
+                     const unsigned int     q,
+                     const SectionLaw      &section)
+  {
+    rotation_jump_.assign(edge.n_dofs(), 0.);
+    mean_moment_.assign(edge.n_dofs(), 0.);
+    stiffness_            = 0.;
+    const bool   interior = (edge.n_sides() == 2);
+    const double half     = interior ? NACRE_MUTABLE(half, 0.5, 1.) : 1.;
+    for (unsigned int side = 0; side < edge.n_sides(); ++side)
+      {
+        side_.reinit(edge, side, q, section);
+        // jump = plus - minus
+        const double sign =
+          side == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.;
+        for (unsigned int a = 0; a < side_.rotation.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              const unsigned int i = edge.dof(side, a, c);
+              rotation_jump_[i] += sign * side_.rotation[a] * side_.t0[c];
+              mean_moment_[i] += half * side_.moment[a] * side_.t0[c];
+            }
+        stiffness_ += (interior ? 0.5 : 1.) * side_.stiffness;
+      }
+  }
+} // namespace Nacre

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mutation.h>
+
+#include <nacre/forms/linear_kinematics.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace Nacre
+{
+  Energies &
+  Energies::operator+=(const Energies &other)
+  {
+    membrane += other.membrane;
+    bending += other.bending;
+    edge += other.edge;
+    return *this;
+  }
+
+  const std::vector<std::string> &
+  membrane_strain_names()
+  {
+    static const std::vector<std::string> names = {"tied", "full", "reduced"};
+    return names;
+  }
+
+  void
+  LocalTerms::reinit(const unsigned int n_dofs)
+  {
+    if (wants_tangent)
+      tangent.reinit(n_dofs, n_dofs);
+    residual.reinit(n_dofs);
+    energies = Energies();
+  }
+
+  LinearKinematics::LinearKinematics(const Discretization &discretization,
+                                     const SectionLaw     &section,
+                                     const MembraneStrain  membrane_strain)
+    : discretization_(discretization)
+    , section_(section)
+    , membrane_strain_(membrane_strain)
+    , full_values_(discretization,
+                   QGauss<dim>(discretization.degree() + 1),
+                   membrane_strain == MembraneStrain::tied)
+  {
+    if (membrane_strain == MembraneStrain::reduced)
+      reduced_values_ =
+        std::make_unique<ShellCellValues>(discretization,
+                                          QGauss<dim>(discretization.degree()),
+                                          false);
+  }
+
+  std::unique_ptr<Kinematics>
+  LinearKinematics::clone() const
+  {
+    return std::make_unique<LinearKinematics>(discretization_,
+                                              section_,
+                                              membrane_strain_);
+  }
+
+  void
+  LinearKinematics::weigh(const ShellCellValues &values, const double factor)
+  {
+    membrane_stiffness_.resize(values.n_points());
+    bending_stiffness_.resize(values.n_points());
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto stiffness =
+          section_.stiffness(values.frame(q), values.point(q));
+        membrane_stiffness_[q] = factor * values.JxW(q) * stiffness.membrane;
+        bending_stiffness_[q]  = values.JxW(q) * stiffness.bending;
+      }
+  }
+
+  double
+  LinearKinematics::full_integration_share() const
+  {
+    double area = 0., volume = 0.;
+    for (unsigned int q = 0; q < full_values_.n_points(); ++q)
+      {
+        area += full_values_.JxW(q);
+        volume +=
+          full_values_.JxW(q) * section_.thickness(full_values_.point(q));
+      }
+    const double thickness = volume / area;
+    return std::min(1., thickness * thickness / area);
+  }
+
+  double
+  LinearKinematics::add_strain_terms(
+    const FullMatrix<double>         &rows,
+    const std::vector<VoigtMatrix<>> &stiffness,
+    const Vector<double>             &u,
+    LocalTerms                       &terms)
+  {
+    const unsigned int n = rows.n();
+    if (terms.wants_tangent)
+      {
+        // K += B^T D B as dense products.
+        stress_rows_.reinit(rows.m(), n, true);
+        for (unsigned int q = 0; q < stiffness.size(); ++q)
+          {
+            const double *b[] = {&rows(3 * q, 0),
+                                 &rows(3 * q + 1, 0),
+                                 &rows(3 * q + 2, 0)};
+            for (unsigned int v = 0; v < 3; ++v)
+              {
+                double     *s = &stress_rows_(3 * q + v, 0);
+                const auto &d = stiffness[q][v];
+                for (unsigned int i = 0; i < n; ++i)
+                  s[i] = d[0] * b[0][i] + d[1] * b[1][i] + d[2] * b[2][i];
+              }
+          }
+        rows.Tmmult(terms.tangent, stress_rows_, true);
+      }
+    if (u.size() == 0)
+      return 0.;
+
+    double energy = 0.;
+    for (unsigned int q = 0; q < stiffness.size(); ++q)
+      {
+        Voigt<> strain;
+        for (unsigned int v = 0; v < 3; ++v)
+          for (unsigned int i = 0; i < n; ++i)
+            strain[v] += rows(3 * q + v, i) * u[i];
+        const Voigt<> stress = stiffness[q] * strain;
+        for (unsigned int v = 0; v < 3; ++v)
+          for (unsigned int i = 0; i < n; ++i)
+            terms.residual[i] += rows(3 * q + v, i) * stress[v];
+        energy += 0.5 * (stress * strain);
+      }
+    return energy;
+  }
+
+  void
+  LinearKinematics::add_cell_terms(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Vector<double>                              &u,
+    LocalTerms                                        &terms)
+  {
+    full_values_.reinit(cell);
+    const bool   reduced = (reduced_values_ != nullptr);
+    const double share   = reduced ? full_integration_share() : 1.;
+
+    // (32), (33)
+    weigh(full_values_, share);
+    terms.energies.membrane += add_strain_terms(full_values_.membrane_rows(),
+                                                membrane_stiffness_,
+                                                u,
+                                                terms);
+    terms.energies.bending += add_strain_terms(full_values_.bending_rows(),
+                                               bending_stiffness_,
+                                               u,
+                                               terms);
+    if (reduced && share < 1.)
+      {
+        reduced_values_->reinit(cell);
+        weigh(*reduced_values_, 1. - share);
+        terms.energies.membrane +=
+          add_strain_terms(reduced_values_->membrane_rows(),
+                           membrane_stiffness_,
+                           u,
+                           terms);
+      }
+  }
+
+  void
+  LinearKinematics::add_edge_terms(const ShellEdgeValues &edge,
+                                   const double           penalty,
+                                   const Vector<double>  &u,
+                                   LocalTerms            &terms)
+  {
+    const std::vector<double> no_rotation(edge.n_points(), 0.);
+    add_rotation_terms(edge, penalty, no_rotation, u, terms);
+  }
+
+  void
+  LinearKinematics::add_rotation_terms(const ShellEdgeValues     &edge,
+                                       const double               penalty,
+                                       const std::vector<double> &rotation,
+                                       const Vector<double>      &u,
+                                       LocalTerms                &terms)
+  {
+    const unsigned int n        = edge.n_dofs();
+    const unsigned int n_points = edge.n_points();
+    const bool         interior = (edge.n_sides() == 2);
+    // The mirror image of a boundary cell doubles the penalty.
+    const double factor =
+      interior ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
+
+    if (terms.wants_tangent)
+      {
+        test_rows_.reinit(2 * n_points, n, true);
+        trial_rows_.reinit(2 * n_points, n, true);
+      }
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        hinge_.reinit(edge, q, section_);
+        const auto  &jump   = hinge_.rotation_jump();
+        const auto  &moment = hinge_.mean_moment();
+        const double dx     = edge.JxW(q);
+
+        const double penalty_flux = NACRE_MUTABLE(
+          penalty_sign, 1., -1.) *
+                                    factor * penalty * hinge_.stiffness() * dx;
+        const double symmetry_flux    = NACRE_MUTABLE(symmetry_sign, -dx, dx);
+        const double consistency_flux = NACRE_MUTABLE(consistency_sign, -dx, dx);
+
+        if (terms.wants_tangent)
+          {
+            double *v_jump   = &test_rows_(2 * q, 0);
+            double *v_moment = &test_rows_(2 * q + 1, 0);
+            double *u_jump   = &trial_rows_(2 * q, 0);
+            double *u_moment = &trial_rows_(2 * q + 1, 0);
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                v_jump[i]   = jump[i];
+                v_moment[i] = moment[i];
+                u_jump[i] = penalty_flux * jump[i] + consistency_flux * moment[i];
+                u_moment[i] = symmetry_flux * jump[i];
+              }
+          }
+
+        // With a prescribed rotation, the jump is rotation - theta^-.
+        double u_jump   = rotation[q];
+        double u_moment = 0.;
+        if (u.size() > 0)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              u_jump += jump[i] * u[i];
+              u_moment += moment[i] * u[i];
+            }
+        if (u_jump != 0. || u_moment != 0.)
+          {
+            for (unsigned int i = 0; i < n; ++i)
+              terms.residual[i] +=
+                (penalty_flux * u_jump + consistency_flux * u_moment) * jump[i] +
+                symmetry_flux * u_jump * moment[i];
+            terms.energies.edge +=
+              0.5 * penalty_flux * u_jump * u_jump +
+              0.5 * (consistency_flux + symmetry_flux) * u_moment * u_jump;
+          }
+      }
+    if (terms.wants_tangent)
+      test_rows_.Tmmult(terms.tangent, trial_rows_, true);
+  }
+} // namespace Nacre

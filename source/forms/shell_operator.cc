@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/forms/linear_kinematics.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/loads.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <deal.II/meshworker/mesh_loop.h>
+
+#include <sstream>
+
+namespace Nacre
+{
+  struct ShellOperator::ScratchData
+  {
+    ScratchData(const Discretization &discretization,
+                const Kinematics     &kinematics)
+      : kinematics(kinematics.clone())
+      , edge(discretization)
+    {}
+
+    ScratchData(const ScratchData &other)
+      : kinematics(other.kinematics->clone())
+      , edge(other.edge)
+    {}
+
+    std::unique_ptr<Kinematics> kinematics;
+    ShellEdgeValues             edge;
+    dealii::Vector<double>      u;
+  };
+
+  struct ShellOperator::FaceCopy
+  {
+    LocalTerms                           terms;
+    std::vector<types::global_dof_index> dofs;
+  };
+
+  struct ShellOperator::CopyData
+  {
+    bool                                 wants_tangent = true;
+    LocalTerms                           terms;
+    std::vector<types::global_dof_index> dofs;
+    std::vector<FaceCopy>                faces;
+    /** Faces in use; their storage is kept from cell to cell. */
+    unsigned int n_faces = 0;
+
+    FaceCopy &
+    next_face()
+    {
+      if (n_faces == faces.size())
+        faces.emplace_back();
+      faces[n_faces].terms.wants_tangent = wants_tangent;
+      return faces[n_faces++];
+    }
+  };
+
+  namespace
+  {
+    /** Values of @p u (zero if null) at @p dofs. */
+    void
+    extract(const TrilinosWrappers::MPI::Vector        *u,
+            const std::vector<types::global_dof_index> &dofs,
+            Vector<double>                             &local)
+    {
+      if (u == nullptr)
+        {
+          local.reinit(0);
+          return;
+        }
+      local.reinit(dofs.size(), true);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        local[i] = (*u)(dofs[i]);
+    }
+  } // namespace
+
+  ShellOperator::ShellOperator(const Discretization     &discretization,
+                               const SectionLaw         &section,
+                               const BoundaryConditions &boundary_conditions,
+                               const Loads              &loads,
+                               const MembraneStrain      membrane_strain,
+                               const std::optional<double> &eta)
+    : discretization_(discretization)
+    , section_(section)
+    , boundary_conditions_(boundary_conditions)
+    , loads_(loads)
+    , penalty_(discretization, section, eta)
+    , kinematics_(std::make_unique<LinearKinematics>(discretization,
+                                                     section,
+                                                     membrane_strain))
+  {
+    locate_point_forces();
+    AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
+                ExcMessage("Loads/Pressure: neighbouring cells have opposite "
+                           "normals, so that a pressure has no direction; use "
+                           "Force per area."));
+  }
+
+  void
+  ShellOperator::locate_point_forces()
+  {
+    for (const auto &force : loads_.point_forces())
+      {
+        const auto         found = discretization_.locate(force.position);
+        std::ostringstream message;
+        message << force.source << ": the point lies off the mid-surface by "
+                << found.distance << "; the nearest point of the mesh is ("
+                << found.position << ").";
+        AssertThrow(found.distance <= 0.02 * found.cell_diameter,
+                    ExcMessage(message.str()));
+        force_points_.push_back(found);
+      }
+  }
+
+  void
+  ShellOperator::reinit_matrix(const AffineConstraints<double> &constraints,
+                               Matrix                          &matrix) const
+  {
+    const auto            &relevant = discretization_.locally_relevant_dofs();
+    DynamicSparsityPattern pattern(relevant);
+    DoFTools::make_flux_sparsity_pattern(discretization_.dof_handler(),
+                                         pattern,
+                                         constraints,
+                                         false);
+    SparsityTools::distribute_sparsity_pattern(
+      pattern,
+      discretization_.locally_owned_dofs(),
+      discretization_.communicator(),
+      relevant);
+    matrix.reinit(discretization_.locally_owned_dofs(),
+                  discretization_.locally_owned_dofs(),
+                  pattern,
+                  discretization_.communicator());
+  }
+
+  void
+  ShellOperator::assemble_system(const AffineConstraints<double> &constraints,
+                                 Matrix                          &matrix,
+                                 Vector &right_hand_side) const
+  {
+    matrix          = 0.;
+    right_hand_side = 0.;
+    // The residual at zero displacement is the negative load.
+    dealii::Vector<double> load;
+    loop(nullptr, true, [&](const CopyData &copy) {
+      const auto distribute = [&](const LocalTerms &terms, const auto &dofs) {
+        load = terms.residual;
+        load *= -1.;
+        constraints.distribute_local_to_global(
+          terms.tangent, load, dofs, matrix, right_hand_side);
+      };
+      distribute(copy.terms, copy.dofs);
+      for (unsigned int f = 0; f < copy.n_faces; ++f)
+        distribute(copy.faces[f].terms, copy.faces[f].dofs);
+    });
+    matrix.compress(VectorOperation::add);
+    right_hand_side.compress(VectorOperation::add);
+    add_point_forces(constraints, 1., right_hand_side);
+  }
+
+  Energies
+  ShellOperator::residual(const Vector &u, Vector &result) const
+  {
+    result = 0.;
+    Energies sum;
+    loop(&u, false, [&](const CopyData &copy) {
+      const auto add = [&](const LocalTerms &terms, const auto &dofs) {
+        result.add(dofs,
+                   std::vector<double>(terms.residual.begin(),
+                                       terms.residual.end()));
+        sum += terms.energies;
+      };
+      add(copy.terms, copy.dofs);
+      for (unsigned int f = 0; f < copy.n_faces; ++f)
+        add(copy.faces[f].terms, copy.faces[f].dofs);
+    });
+    result.compress(VectorOperation::add);
+    AffineConstraints<double> none;
+    none.close();
+    add_point_forces(none, -1., result);
+    const auto communicator = discretization_.communicator();
+    sum.membrane            = Utilities::MPI::sum(sum.membrane, communicator);
+    sum.bending             = Utilities::MPI::sum(sum.bending, communicator);
+    sum.edge                = Utilities::MPI::sum(sum.edge, communicator);
+    return sum;
+  }
+
+  Energies
+  ShellOperator::energies(const Vector &u) const
+  {
+    Vector result(discretization_.locally_owned_dofs(),
+                  discretization_.communicator());
+    return residual(u, result);
+  }
+
+  void
+  ShellOperator::loop(const Vector *u,
+                      const bool    wants_tangent,
+                      const Copier &copier) const
+  {
+    using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+
+    const auto cell_worker = [&](const Iterator &cell,
+                                 ScratchData    &scratch,
+                                 CopyData       &copy) {
+      this->cell_worker(cell, u, scratch, copy);
+    };
+    const auto face_worker = [&](const Iterator    &cell,
+                                 const unsigned int f,
+                                 const unsigned int sf,
+                                 const Iterator    &neighbor,
+                                 const unsigned int nf,
+                                 const unsigned int nsf,
+                                 ScratchData       &scratch,
+                                 CopyData          &copy) {
+      scratch.edge.reinit(cell, f, sf, neighbor, nf, nsf);
+      FaceCopy &face = copy.next_face();
+      face.dofs      = scratch.edge.dof_indices();
+      face.terms.reinit(face.dofs.size());
+      extract(u, face.dofs, scratch.u);
+      scratch.kinematics->add_edge_terms(scratch.edge,
+                                         penalty_.interior(cell, neighbor),
+                                         scratch.u,
+                                         face.terms);
+    };
+    const auto boundary_worker = [&](const Iterator    &cell,
+                                     const unsigned int f,
+                                     ScratchData       &scratch,
+                                     CopyData          &copy) {
+      this->boundary_worker(cell, f, u, scratch, copy);
+    };
+
+    CopyData copy;
+    copy.wants_tangent = wants_tangent;
+    MeshWorker::mesh_loop(discretization_.dof_handler().begin_active(),
+                          discretization_.dof_handler().end(),
+                          cell_worker,
+                          copier,
+                          ScratchData(discretization_, *kinematics_),
+                          copy,
+                          MeshWorker::assemble_own_cells |
+                            MeshWorker::assemble_own_interior_faces_once |
+                            MeshWorker::assemble_ghost_faces_once |
+                            MeshWorker::assemble_boundary_faces,
+                          boundary_worker,
+                          face_worker);
+  }
+
+  void
+  ShellOperator::cell_worker(
+    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+    const Vector                                          *u,
+    ScratchData                                           &scratch,
+    CopyData                                              &copy) const
+  {
+    copy.n_faces             = 0;
+    copy.terms.wants_tangent = copy.wants_tangent;
+    copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(copy.dofs);
+    copy.terms.reinit(copy.dofs.size());
+    extract(u, copy.dofs, scratch.u);
+    scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
+    if (!loads_.no_surface_load())
+      subtract_surface_loads(scratch.kinematics->cell_values(),
+                             copy.terms.residual);
+  }
+
+  void
+  ShellOperator::subtract_surface_loads(const ShellCellValues  &values,
+                                        dealii::Vector<double> &residual) const
+  {
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto  &x            = values.point(q);
+        const double area_density = section_.density(x) * section_.thickness(x);
+        const auto   load =
+          values.JxW(q) *
+          loads_.force_per_area(x, values.frame(q).t0, area_density);
+        for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            residual[values.dof(a, c)] -= values.shapes().value(q, a) * load[c];
+      }
+  }
+
+  void
+  ShellOperator::boundary_worker(
+    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+    const unsigned int                                     f,
+    const Vector                                          *u,
+    ScratchData                                           &scratch,
+    CopyData                                              &copy) const
+  {
+    const auto id         = cell->face(f)->boundary_id();
+    const auto conditions = boundary_conditions_.edges().find(id);
+    const bool rotates    = (conditions != boundary_conditions_.edges().end() &&
+                          conditions->second.rotation != nullptr);
+    if (!rotates && loads_.edge_forces().count(id) == 0 &&
+        loads_.edge_moments().count(id) == 0)
+      return;
+
+    scratch.edge.reinit(cell, f);
+    FaceCopy &face = copy.next_face();
+    face.dofs      = scratch.edge.dof_indices();
+    face.terms.reinit(face.dofs.size());
+    extract(u, face.dofs, scratch.u);
+    if (rotates)
+      {
+        std::vector<double> rotation(scratch.edge.n_points());
+        for (unsigned int q = 0; q < rotation.size(); ++q)
+          rotation[q] = (*conditions->second.rotation)(scratch.edge.point(q));
+        scratch.kinematics->add_rotation_terms(scratch.edge,
+                                               penalty_.boundary(cell),
+                                               rotation,
+                                               scratch.u,
+                                               face.terms);
+      }
+    subtract_edge_loads(id, scratch.edge, face.terms.residual);
+  }
+
+  void
+  ShellOperator::subtract_edge_loads(const types::boundary_id id,
+                                     const ShellEdgeValues   &edge,
+                                     dealii::Vector<double>  &residual) const
+  {
+    const auto force  = loads_.edge_forces().find(id);
+    const auto moment = loads_.edge_moments().find(id);
+    HingeSide  hinge;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        const auto         &shapes = edge.shapes(0);
+        Tensor<1, spacedim> f;
+        if (force != loads_.edge_forces().end())
+          f = edge.JxW(q) * force->second(edge.point(q));
+        double m = 0.;
+        if (moment != loads_.edge_moments().end())
+          {
+            m = edge.JxW(q) * moment->second(edge.point(q));
+            hinge.reinit(edge, 0, q, section_);
+          }
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              const unsigned int i = edge.dof(0, a, c);
+              residual[i] -= shapes.value(q, a) * f[c];
+              // l(v) = -int m theta(v)
+              if (m != 0.)
+                residual[i] += m * hinge.rotation[a] * hinge.t0[c];
+            }
+      }
+  }
+
+  void
+  ShellOperator::add_point_forces(const AffineConstraints<double> &constraints,
+                                  const double                     factor,
+                                  Vector                          &vector) const
+  {
+    const auto &fe = discretization_.scalar_fe();
+    for (unsigned int k = 0; k < force_points_.size(); ++k)
+      if (force_points_[k].is_mine)
+        {
+          const auto            &place = force_points_[k];
+          const auto            &force = loads_.point_forces()[k].force;
+          const auto             n     = discretization_.node_dofs().size();
+          dealii::Vector<double> local(n);
+          std::vector<types::global_dof_index> dofs(n);
+          place.cell->get_dof_indices(dofs);
+          for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              local[discretization_.node_dofs()[spacedim * a + c]] =
+                factor * fe.shape_value(a, place.unit) * force[c];
+          constraints.distribute_local_to_global(local, dofs, vector);
+        }
+    vector.compress(VectorOperation::add);
+  }
+
+  Tensor<1, spacedim>
+  ShellOperator::rotation_reaction(const types::boundary_id id,
+                                   const Vector            &u) const
+  {
+    Tensor<1, spacedim> sum;
+    const auto          conditions = boundary_conditions_.edges().find(id);
+    if (conditions != boundary_conditions_.edges().end() &&
+        conditions->second.rotation != nullptr)
+      {
+        ScratchData scratch(discretization_, *kinematics_);
+        LocalTerms  terms;
+        terms.wants_tangent = false;
+        for (const auto &cell :
+             discretization_.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const auto f : cell->face_indices())
+              if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
+                {
+                  auto &edge = scratch.edge;
+                  edge.reinit(cell, f);
+                  std::vector<double> rotation(edge.n_points());
+                  for (unsigned int q = 0; q < rotation.size(); ++q)
+                    rotation[q] = (*conditions->second.rotation)(edge.point(q));
+                  terms.reinit(edge.n_dofs());
+                  extract(&u, edge.dof_indices(), scratch.u);
+                  scratch.kinematics->add_rotation_terms(edge,
+                                                         penalty_.boundary(cell),
+                                                         rotation,
+                                                         scratch.u,
+                                                         terms);
+                  // Virtual work on the rigid rotation e_k x X.
+                  const auto nodes = discretization_.node_positions(cell);
+                  for (unsigned int a = 0; a < nodes.size(); ++a)
+                    {
+                      Tensor<1, spacedim> force;
+                      for (unsigned int c = 0; c < spacedim; ++c)
+                        force[c] = terms.residual[edge.dof(0, a, c)];
+                      sum += cross_product_3d(Tensor<1, spacedim>(nodes[a]),
+                                              force);
+                    }
+                }
+      }
+    return Utilities::MPI::sum(sum, discretization_.communicator());
+  }
+
+  bool
+  ShellOperator::is_consistently_oriented() const
+  {
+    ShellEdgeValues edge(discretization_);
+    bool            consistent = true;
+    for (const auto &cell : discretization_.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const auto f : cell->face_indices())
+          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+              !cell->neighbor_is_coarser(f))
+            {
+              edge.reinit(cell,
+                          f,
+                          numbers::invalid_unsigned_int,
+                          cell->neighbor(f),
+                          cell->neighbor_of_neighbor(f),
+                          numbers::invalid_unsigned_int);
+              consistent &= (edge.sigma(1, 0) > 0.);
+            }
+    return Utilities::MPI::min(consistent ? 1 : 0,
+                               discretization_.communicator()) == 1;
+  }
+} // namespace Nacre

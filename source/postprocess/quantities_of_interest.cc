@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+
+#include <nacre/forms/shell_operator.h>
+#include <nacre/postprocess/error_norms.h>
+#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/problem/exact_solution.h>
+#include <nacre/problem/midsurface.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    Vector3
+    axis(const unsigned int c)
+    {
+      Vector3 e;
+      e[c] = 1.;
+      return e;
+    }
+
+    /** The direction x, y, z, (a, b, c); none for "normal". */
+    std::optional<Vector3>
+    parse_direction(const std::string &text,
+                    const std::string &where,
+                    const Constants   &constants)
+    {
+      if (text == "normal")
+        return {};
+      for (unsigned int c = 0; c < spacedim; ++c)
+        if (text == std::string(1, "xyz"[c]))
+          return axis(c);
+      AssertThrow(!text.empty() && text.front() == '(',
+                  ExcMessage(
+                    Text::unknown_name(where,
+                                       "direction",
+                                       text,
+                                       {"x", "y", "z", "normal", "(a, b, c)"})));
+      const Vector3 direction = evaluate_point(text, where, constants);
+      AssertThrow(direction.norm() > 0.,
+                  ExcMessage(where + ": the direction " + text +
+                             " has no length."));
+      return direction / direction.norm();
+    }
+
+    double
+    displacement_at(const SolvedShell            &shell,
+                    const Point<spacedim>        &point,
+                    const std::optional<Vector3> &direction,
+                    const std::string            &where)
+    {
+      const auto         place = shell.discretization.locate(point);
+      std::ostringstream message;
+      message << where << ": the point lies off the mid-surface by "
+              << place.distance << "; the nearest point of the mesh is ("
+              << place.position[0] << ", " << place.position[1] << ", "
+              << place.position[2] << ").";
+      AssertThrow(place.distance <= 0.02 * place.cell_diameter,
+                  ExcMessage(message.str()));
+      double value = 0.;
+      if (place.is_mine)
+        {
+          ShellCellValues values(shell.discretization,
+                                 Quadrature<dim>(place.unit),
+                                 false);
+          values.reinit(place.cell);
+          std::vector<types::global_dof_index> dofs(values.n_dofs());
+          place.cell->get_dof_indices(dofs);
+          const Vector3 d = direction ? *direction : values.frame(0).t0;
+          for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              value += d[c] * values.shapes().value(0, a) *
+                       shell.displacement(dofs[values.dof(a, c)]);
+        }
+      return Utilities::MPI::sum(value, shell.discretization.communicator());
+    }
+
+    double
+    maximum_displacement(const SolvedShell &shell)
+    {
+      const auto &discretization = shell.discretization;
+      const auto &node_dofs      = discretization.node_dofs();
+      double      maximum        = 0.;
+      std::vector<types::global_dof_index> dofs(node_dofs.size());
+      for (const auto &cell :
+           discretization.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            cell->get_dof_indices(dofs);
+            for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
+              {
+                Vector3 u;
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  u[c] =
+                    shell.displacement(dofs[node_dofs[spacedim * a + c]]);
+                maximum = std::max(maximum, u.norm());
+              }
+          }
+      return Utilities::MPI::max(maximum, discretization.communicator());
+    }
+
+    /**
+     * Virtual work of the residual on the displacement @p virtual_displacement
+     * of the nodes of an edge, hanging nodes following.
+     */
+    double
+    virtual_work(const SolvedShell         &shell,
+                 const types::boundary_id   id,
+                 const std::function<Vector3(const Point<spacedim> &)>
+                   &virtual_displacement)
+    {
+      const auto &discretization = shell.discretization;
+      const auto &node_dofs      = discretization.node_dofs();
+      const auto &fe             = discretization.scalar_fe();
+      TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
+                                      discretization.communicator());
+      std::vector<types::global_dof_index> dofs(node_dofs.size());
+      for (const auto &cell :
+           discretization.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->at_boundary())
+          for (const auto face : cell->face_indices())
+            if (cell->at_boundary(face) &&
+                cell->face(face)->boundary_id() == id)
+              {
+                const auto nodes = discretization.node_positions(cell);
+                cell->get_dof_indices(dofs);
+                for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+                  if (fe.has_support_on_face(a, face))
+                    for (unsigned int c = 0; c < spacedim; ++c)
+                      v(dofs[node_dofs[spacedim * a + c]]) =
+                        virtual_displacement(nodes[a])[c];
+              }
+      v.compress(VectorOperation::insert);
+      discretization.hanging_node_constraints().distribute(v);
+      return shell.residual * v;
+    }
+
+    /**
+     * Reaction moment along @p direction about @p origin: the nodes' forces
+     * and the work of the rotation condition. The latter enters the nodes'
+     * residual on a rigid rotation already, with the opposite share of the
+     * nodes inside: formulation.md.
+     */
+    double
+    reaction_moment(const SolvedShell       &shell,
+                    const types::boundary_id id,
+                    const Vector3           &direction,
+                    const Point<spacedim>   &origin)
+    {
+      const double forces =
+        virtual_work(shell, id, [&](const Point<spacedim> &x) {
+          return cross_product_3d(direction, x - origin);
+        });
+      return forces -
+             direction *
+               shell.shell_operator.rotation_reaction(id, shell.displacement);
+    }
+
+    /** Words of a kind and its arguments. */
+    struct Phrase
+    {
+      std::string text;
+      std::string where;
+
+      /** Remove @p word from the beginning, if it stands there. */
+      bool
+      take(const std::string &word)
+      {
+        if (text.compare(0, word.size(), word) != 0)
+          return false;
+        const std::string rest = Text::trim(text.substr(word.size()));
+        if (text.size() > word.size() && text[word.size()] != ' ' &&
+            text[word.size()] != '(')
+          return false;
+        text = rest;
+        return true;
+      }
+
+      /** What stands before @p word (outside parentheses) or the end. */
+      std::string
+      up_to(const std::string &word)
+      {
+        int depth = 0;
+        for (std::size_t k = 0; k < text.size(); ++k)
+          {
+            depth += (text[k] == '(') - (text[k] == ')');
+            if (depth == 0 && text.compare(k, word.size() + 2,
+                                           " " + word + " ") == 0)
+              {
+                const std::string before = Text::trim(text.substr(0, k));
+                text = Text::trim(text.substr(k + word.size() + 2));
+                return before;
+              }
+          }
+        return std::exchange(text, "");
+      }
+    };
+  } // namespace
+
+  QuantitiesOfInterest::QuantitiesOfInterest()
+    : ParameterAcceptor("/Quantities")
+  {
+    add_parameter(
+      "Quantities",
+      text_,
+      "'name = kind [-> reference]; ...'. Kinds: displacement "
+      "x|y|z|normal|(a, b, c) at (point); maximum displacement; energy; "
+      "membrane energy; bending energy; edge energy; reaction x|y|z of EDGE; "
+      "moment x|y|z of EDGE [about (point)]; L2 error; H1 error; energy "
+      "error. Units: those of the quantity.");
+  }
+
+  std::vector<std::string>
+  QuantitiesOfInterest::kinds()
+  {
+    return {"displacement",
+            "maximum displacement",
+            "energy",
+            "membrane energy",
+            "bending energy",
+            "edge energy",
+            "reaction",
+            "moment",
+            "L2 error",
+            "H1 error",
+            "energy error"};
+  }
+
+  void
+  QuantitiesOfInterest::prepare(const Midsurface    &midsurface,
+                                const ExactSolution &exact_solution,
+                                const Constants     &constants)
+  {
+    const std::string parameter = "Quantities/Quantities";
+    quantities_.clear();
+    std::set<std::string> names;
+    for (const auto &entry : Text::split(text_, ';', parameter))
+      {
+        const auto [name, definition] = Text::key_and_value(entry);
+        AssertThrow(!definition.empty(),
+                    ExcMessage(parameter + ": '" + entry +
+                               "' is not of the form 'name = kind'."));
+        AssertThrow(names.insert(name).second,
+                    ExcMessage(parameter + ": two quantities are named '" +
+                               name + "'."));
+        const std::string where = parameter + ", '" + name + "'";
+        Quantity          quantity;
+        quantity.name = name;
+
+        const auto  arrow = definition.find("->");
+        Phrase      phrase{Text::trim(definition.substr(0, arrow)), where};
+        if (arrow != std::string::npos)
+          quantity.reference = evaluate_number(
+            Text::trim(definition.substr(arrow + 2)), where, constants);
+        AssertThrow(!quantity.reference || *quantity.reference != 0.,
+                    ExcMessage(where + ": the reference is 0, so that there "
+                                       "is no ratio to it."));
+
+        const auto kind_text = phrase.text;
+        const auto error     = [&](double ErrorNorms::*norm) {
+          AssertThrow(exact_solution.is_known(),
+                      ExcMessage(where + ": '" + kind_text +
+                                 "' needs 'Exact solution/Displacement'."));
+          quantity.is_error = true;
+          quantity.evaluate = [norm](const SolvedShell &shell) {
+            return compute_error_norms(shell).*norm;
+          };
+        };
+        if (phrase.take("displacement"))
+          {
+            const auto direction =
+              parse_direction(phrase.up_to("at"), where, constants);
+            AssertThrow(!phrase.text.empty(),
+                        ExcMessage(where +
+                                   ": write 'displacement z at (x, y, z)'."));
+            const auto point = evaluate_point(phrase.text, where, constants);
+            phrase.text.clear();
+            quantity.evaluate = [=](const SolvedShell &shell) {
+              return displacement_at(shell, point, direction, where);
+            };
+          }
+        else if (phrase.take("maximum displacement"))
+          quantity.evaluate = maximum_displacement;
+        else if (phrase.take("energy error"))
+          error(&ErrorNorms::energy);
+        else if (phrase.take("L2 error"))
+          error(&ErrorNorms::L2);
+        else if (phrase.take("H1 error"))
+          error(&ErrorNorms::H1);
+        else if (phrase.take("energy"))
+          quantity.evaluate = [](const SolvedShell &shell) {
+            return shell.energies.total();
+          };
+        else if (phrase.take("membrane energy"))
+          quantity.evaluate = [](const SolvedShell &shell) {
+            return shell.energies.membrane;
+          };
+        else if (phrase.take("bending energy"))
+          quantity.evaluate = [](const SolvedShell &shell) {
+            return shell.energies.bending;
+          };
+        else if (phrase.take("edge energy"))
+          quantity.evaluate = [](const SolvedShell &shell) {
+            return shell.energies.edge;
+          };
+        else if (kind_text.compare(0, 8, "reaction") == 0 ||
+                 kind_text.compare(0, 6, "moment") == 0)
+          {
+            const bool is_moment = phrase.take("moment");
+            if (!is_moment)
+              phrase.take("reaction");
+            const auto direction =
+              parse_direction(phrase.up_to("of"), where, constants);
+            AssertThrow(direction && !phrase.text.empty(),
+                        ExcMessage(where + ": write 'reaction x of EDGE' or "
+                                           "'moment x of EDGE'."));
+            const auto id =
+              midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"),
+                                 where);
+            const auto origin =
+              phrase.text.empty() ?
+                Point<spacedim>() :
+                evaluate_point(phrase.text, where, constants);
+            phrase.text.clear();
+            if (is_moment)
+              quantity.evaluate = [=](const SolvedShell &shell) {
+                return reaction_moment(shell, id, *direction, origin);
+              };
+            else
+              quantity.evaluate = [=](const SolvedShell &shell) {
+                return virtual_work(shell, id, [&](const auto &) {
+                  return *direction;
+                });
+              };
+          }
+        else
+          AssertThrow(false,
+                      ExcMessage(Text::unknown_name(
+                        where, "kind of quantity", kind_text, kinds())));
+        AssertThrow(phrase.text.empty(),
+                    ExcMessage(where + ": '" + phrase.text +
+                               "' after the kind of quantity is not "
+                               "understood."));
+        quantities_.push_back(std::move(quantity));
+      }
+  }
+} // namespace Nacre

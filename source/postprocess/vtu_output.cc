@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/output_file.h>
+#include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/vtu_output.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <filesystem>
+
+namespace Nacre
+{
+  namespace
+  {
+    namespace Interpretation = DataComponentInterpretation;
+    using Vector3            = Tensor<1, spacedim>;
+    using Tensor3            = Tensor<2, spacedim>;
+    using PlaneTensor        = SymmetricTensor<2, dim>;
+
+    /** The solution at one point. */
+    struct PointState
+    {
+      Vector3 displacement;
+      Vector3 normal;
+      /** Orthonormal basis of the tangent plane. */
+      std::array<Vector3, dim> e;
+      /** Membrane forces and moments in space and in the basis e. */
+      Tensor3     membrane_forces, moments;
+      PlaneTensor n, m;
+      double      thickness      = 0.;
+      double      energy_density = 0.;
+      double      rank           = 0.;
+
+      /** Von Mises stress at z = @p side h/2 along the normal. */
+      double
+      von_mises(const double side) const
+      {
+        const PlaneTensor stress =
+          n / thickness + 6. * side / (thickness * thickness) * m;
+        // s11^2 - s11 s22 + s22^2 + 3 s12^2
+        const double trace = stress[0][0] + stress[1][1];
+        const double det =
+          stress[0][0] * stress[1][1] - stress[0][1] * stress[0][1];
+        return std::sqrt(std::max(trace * trace - 3. * det, 0.));
+      }
+    };
+
+    /** A field of the output: name, rank, and how to compute it. */
+    struct Field
+    {
+      std::string                                 name;
+      Interpretation::DataComponentInterpretation interpretation;
+      unsigned int                                n_components;
+      std::function<double(const PointState &, const unsigned int)> component;
+    };
+
+    Field
+    scalar(const std::string                               &name,
+           const std::function<double(const PointState &)> &value)
+    {
+      return {name,
+              Interpretation::component_is_scalar,
+              1,
+              [value](const PointState &s, const unsigned int) {
+                return value(s);
+              }};
+    }
+
+    Field
+    vector(const std::string                                &name,
+           const std::function<Vector3(const PointState &)> &value)
+    {
+      return {name,
+              Interpretation::component_is_part_of_vector,
+              spacedim,
+              [value](const PointState &s, const unsigned int c) {
+                return value(s)[c];
+              }};
+    }
+
+    Field
+    tensor(const std::string                                &name,
+           const std::function<Tensor3(const PointState &)> &value)
+    {
+      return {name,
+              Interpretation::component_is_part_of_tensor,
+              Tensor3::n_independent_components,
+              [value](const PointState &s, const unsigned int c) {
+                return value(s)[Tensor3::unrolled_to_component_indices(c)];
+              }};
+    }
+
+    /** All fields of the output, in its order. */
+    const std::vector<Field> &
+    fields()
+    {
+      using S                              = const PointState &;
+      static const std::vector<Field> list = {
+        vector("displacement", [](S s) { return s.displacement; }),
+        vector("normal", [](S s) { return s.normal; }),
+        vector("e1", [](S s) { return s.e[0]; }),
+        vector("e2", [](S s) { return s.e[1]; }),
+        tensor("membrane_forces", [](S s) { return s.membrane_forces; }),
+        tensor("moments", [](S s) { return s.moments; }),
+        scalar("principal_membrane_force_1",
+               [](S s) { return eigenvalues(s.n)[0]; }),
+        scalar("principal_membrane_force_2",
+               [](S s) { return eigenvalues(s.n)[1]; }),
+        scalar("principal_moment_1", [](S s) { return eigenvalues(s.m)[0]; }),
+        scalar("principal_moment_2", [](S s) { return eigenvalues(s.m)[1]; }),
+        scalar("n11", [](S s) { return s.n[0][0]; }),
+        scalar("n22", [](S s) { return s.n[1][1]; }),
+        scalar("n12", [](S s) { return s.n[0][1]; }),
+        scalar("m11", [](S s) { return s.m[0][0]; }),
+        scalar("m22", [](S s) { return s.m[1][1]; }),
+        scalar("m12", [](S s) { return s.m[0][1]; }),
+        scalar("von_mises_top", [](S s) { return s.von_mises(1.); }),
+        scalar("von_mises_middle", [](S s) { return s.von_mises(0.); }),
+        scalar("von_mises_bottom", [](S s) { return s.von_mises(-1.); }),
+        scalar("energy_density", [](S s) { return s.energy_density; }),
+        scalar("rank", [](S s) { return s.rank; })};
+      return list;
+    }
+
+    /** Components e_i . T e_j of a tensor of the tangent plane. */
+    PlaneTensor
+    in_basis(const std::array<Vector3, dim> &e, const Tensor3 &T)
+    {
+      PlaneTensor plane;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          plane[i][j] = e[i] * (T * e[j]);
+      return plane;
+    }
+
+    /** The state at the points of one cell after the other. */
+    class CellStates
+    {
+    public:
+      CellStates(const Discretization                &discretization,
+                 const SectionLaw                    &section,
+                 const Quadrature<dim>               &points,
+                 const bool                           tied,
+                 const TrilinosWrappers::MPI::Vector &displacement)
+        : section_(section)
+        , displacement_(displacement)
+        , rank_(Utilities::MPI::this_mpi_process(discretization.communicator()))
+        , values_(discretization, points, tied)
+        , u_(values_.n_dofs())
+        , membrane_strains_(3 * points.size())
+        , bending_strains_(3 * points.size())
+      {}
+
+      void
+      reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+      {
+        values_.reinit(cell);
+        cell->get_dof_values(displacement_, u_);
+        values_.membrane_rows().vmult(membrane_strains_, u_);
+        values_.bending_rows().vmult(bending_strains_, u_);
+      }
+
+      const Point<spacedim> &
+      position(const unsigned int q) const
+      {
+        return values_.point(q);
+      }
+
+      PointState
+      state(const unsigned int q) const
+      {
+        const auto &frame = values_.frame(q);
+        const auto &point = values_.point(q);
+        PointState  s;
+        for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            s.displacement[c] +=
+              values_.shapes().value(q, a) * u_[values_.dof(a, c)];
+        s.normal    = frame.t0;
+        s.e[0]      = frame.a_cov[0] / frame.a_cov[0].norm();
+        s.e[1]      = cross_product_3d(frame.t0, s.e[0]);
+        s.rank      = rank_;
+        s.thickness = section_.thickness(point);
+
+        Voigt<> eps, rho;
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            eps[v] = membrane_strains_[3 * q + v];
+            rho[v] = bending_strains_[3 * q + v];
+          }
+        const auto stiffness = section_.stiffness(frame, point); // (8)
+        const auto n         = stiffness.membrane * eps;
+        const auto m         = stiffness.bending * rho;
+        s.energy_density     = 0.5 * (n * eps + m * rho);
+        s.membrane_forces    = ShellStrain::resultant_tensor(frame, n);
+        s.moments            = ShellStrain::resultant_tensor(frame, m);
+        s.n                  = in_basis(s.e, s.membrane_forces);
+        s.m                  = in_basis(s.e, s.moments);
+        return s;
+      }
+
+    private:
+      const SectionLaw                    &section_;
+      const TrilinosWrappers::MPI::Vector &displacement_;
+      const unsigned int                   rank_;
+      ShellCellValues                      values_;
+      Vector<double>                       u_;
+      Vector<double>                       membrane_strains_;
+      Vector<double>                       bending_strains_;
+    };
+
+    /** Call @p function; if it throws on any rank, all throw its message. */
+    void
+    run_on_all(const MPI_Comm               communicator,
+               const std::function<void()> &function)
+    {
+      std::string error;
+      try
+        {
+          function();
+        }
+      catch (const std::exception &exception)
+        {
+          error = error_text(exception);
+        }
+      for (const auto &text : Utilities::MPI::all_gather(communicator, error))
+        AssertThrow(text.empty(), ExcMessage(text));
+    }
+  } // namespace
+
+
+  ShellFields::ShellFields(const Discretization                &discretization,
+                           const SectionLaw                    &section,
+                           const MembraneStrain                 membrane_strain,
+                           const TrilinosWrappers::MPI::Vector &displacement)
+  {
+    const unsigned int   degree = discretization.degree();
+    const QIterated<dim> points(QTrapezoid<1>(), degree);
+    CellStates           states(discretization,
+                      section,
+                      points,
+                      membrane_strain != MembraneStrain::full,
+                      displacement);
+    const unsigned int   n_components = get_dataset_names().size();
+
+    for (const auto &cell :
+         discretization.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          states.reinit(cell);
+          Patch patch;
+          patch.patch_index          = patches_.size();
+          patch.n_subdivisions       = degree;
+          patch.points_are_available = true;
+          patch.data.reinit(n_components + spacedim, points.size());
+          for (unsigned int q = 0; q < points.size(); ++q)
+            {
+              const PointState state = states.state(q);
+              unsigned int     row   = 0;
+              for (const auto &field : fields())
+                for (unsigned int c = 0; c < field.n_components; ++c)
+                  patch.data(row++, q) = field.component(state, c);
+              for (unsigned int c = 0; c < spacedim; ++c)
+                patch.data(row++, q) = states.position(q)[c];
+            }
+          // Corners of the lexicographic grid of points.
+          const std::array<unsigned int, 4> corners = {
+            {0, degree, degree * (degree + 1), points.size() - 1}};
+          for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
+            patch.vertices[vertex] = states.position(corners[vertex]);
+          patches_.push_back(std::move(patch));
+        }
+
+    DataOutBase::VtkFlags flags;
+    flags.print_date_and_time      = false;
+    flags.compression_level        = DataOutBase::VtkFlags::default_compression;
+    flags.write_higher_order_cells = true;
+    this->set_flags(flags);
+  }
+
+
+  const std::vector<ShellFields::Patch> &
+  ShellFields::get_patches() const
+  {
+    return patches_;
+  }
+
+
+  std::vector<std::string>
+  ShellFields::get_dataset_names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &field : fields())
+      names.insert(names.end(), field.n_components, field.name);
+    return names;
+  }
+
+
+  std::vector<ShellFields::NonscalarRange>
+  ShellFields::get_nonscalar_data_ranges() const
+  {
+    std::vector<NonscalarRange> ranges;
+    unsigned int                first = 0;
+    for (const auto &field : fields())
+      {
+        if (field.interpretation != Interpretation::component_is_scalar)
+          ranges.emplace_back(first,
+                              first + field.n_components - 1,
+                              field.name,
+                              field.interpretation);
+        first += field.n_components;
+      }
+    return ranges;
+  }
+
+
+  void
+  VtuOutput::write(const Discretization                &discretization,
+                   const SectionLaw                    &section,
+                   const MembraneStrain                 membrane_strain,
+                   const TrilinosWrappers::MPI::Vector &ghosted_displacement,
+                   const std::string                   &folder,
+                   const std::string                   &name,
+                   const unsigned int                   counter)
+  {
+    const MPI_Comm communicator = discretization.communicator();
+    run_on_root(communicator, [&] { create_folder(folder); });
+
+    const std::filesystem::path path(folder);
+    const std::string           base = name + "_" + std::to_string(counter);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const std::vector<unsigned int> n_cells = Utilities::MPI::all_gather(
+      communicator,
+      discretization.triangulation().n_locally_owned_active_cells());
+    const auto piece = [&](const unsigned int rank) {
+      return n_ranks == 1 ? base + ".vtu" :
+                            base + "." + std::to_string(rank) + ".vtu";
+    };
+
+    std::unique_ptr<ShellFields> shell_fields;
+    run_on_all(communicator, [&] {
+      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+      shell_fields            = std::make_unique<ShellFields>(discretization,
+                                                   section,
+                                                   membrane_strain,
+                                                   ghosted_displacement);
+      if (n_cells[rank] > 0)
+        write_file((path / piece(rank)).string(),
+                   [&](std::ostream &out) { shell_fields->write_vtu(out); });
+    });
+
+    const std::string record = n_ranks == 1 ? piece(0) : base + ".pvtu";
+    run_on_root(communicator, [&] {
+      std::vector<std::string> pieces;
+      for (unsigned int rank = 0; rank < n_ranks; ++rank)
+        if (n_cells[rank] > 0)
+          pieces.push_back(piece(rank));
+      if (n_ranks > 1)
+        write_file((path / record).string(), [&](std::ostream &out) {
+          shell_fields->write_pvtu_record(out, pieces);
+        });
+
+      const std::string pvd  = (path / (name + ".pvd")).string();
+      records_[pvd][counter] = record;
+      const std::vector<std::pair<double, std::string>> times(
+        records_[pvd].begin(),
+        records_[pvd].end());
+      write_file(pvd, [&](std::ostream &out) {
+        DataOutBase::write_pvd_record(out, times);
+      });
+    });
+  }
+} // namespace Nacre

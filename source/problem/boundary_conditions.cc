@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/midsurface.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    const std::vector<std::pair<std::string, Direction>> component_names = {
+      {"x", Direction::x},
+      {"y", Direction::y},
+      {"z", Direction::z},
+      {"normal", Direction::normal},
+      {"conormal", Direction::conormal},
+      {"tangent", Direction::tangent}};
+
+    /** Split "key: value" at the first colon outside parentheses. */
+    std::pair<std::string, std::string>
+    name_and_items(const std::string &text,
+                   const std::string &where,
+                   const std::string &form)
+    {
+      const auto colon = text.find(':');
+      AssertThrow(colon != std::string::npos,
+                  ExcMessage(where + ": '" + text + "' has no ':'; write '" +
+                             form + "'."));
+      return {Text::trim(text.substr(0, colon)),
+              Text::trim(text.substr(colon + 1))};
+    }
+
+    DisplacementCondition
+    component(const std::string &key,
+              const std::string &value,
+              const std::string &where,
+              const Constants   &constants)
+    {
+      for (const auto &[name, direction] : component_names)
+        if (name == key)
+          return {direction,
+                  Expression(value, where + " (" + key + ")", constants),
+                  where + ": " + key + " = " + value};
+      auto names = BoundaryConditions::condition_names();
+      AssertThrow(false,
+                  ExcMessage(
+                    Text::unknown_name(where, "condition", key, names)));
+      return {Direction::x, Expression(), ""};
+    }
+  } // namespace
+
+  BoundaryConditions::BoundaryConditions()
+    : ParameterAcceptor("/Boundary conditions")
+  {
+    add_parameter(
+      "Edges",
+      edges_text_,
+      "Conditions on named edges: 'edge[, edge]: item, item; ...'. Items: "
+      "free; fixed (x = y = z = 0); clamped (fixed, rotation 0); symmetry (no "
+      "displacement across the plane that holds the edge, rotation 0); "
+      "diaphragm (no displacement within the plane that holds the edge); "
+      "x, y, z, normal, conormal, tangent = displacement component, an "
+      "expression of x, y, z, units: length; rotation = t0 . du/dn with the "
+      "outward conormal n, units: rad. Edges not named are free.");
+    add_parameter("Points",
+                  points_text_,
+                  "Supports of single nodes: '(x, y, z): x = 0, y = 0; ...'. "
+                  "Units: length.");
+  }
+
+  std::vector<std::string>
+  BoundaryConditions::condition_names()
+  {
+    std::vector<std::string> names = {
+      "free", "fixed", "clamped", "symmetry", "diaphragm", "rotation"};
+    for (const auto &component : component_names)
+      names.push_back(component.first);
+    return names;
+  }
+
+  void
+  BoundaryConditions::add_edge_item(EdgeConditions    &conditions,
+                                    const std::string &item,
+                                    const std::string &where,
+                                    const Constants   &constants) const
+  {
+    const auto add = [&](const Direction direction) {
+      conditions.displacements.push_back(
+        {direction, Expression(), where + ": " + item});
+    };
+    const auto add_rotation = [&](const std::string &text) {
+      AssertThrow(conditions.rotation == nullptr,
+                  ExcMessage(where + ": '" + item +
+                             "' prescribes the rotation a second time."));
+      conditions.rotation =
+        std::make_unique<Expression>(text, where + " (rotation)", constants);
+    };
+
+    const auto [key, value] = Text::key_and_value(item);
+    if (value.empty())
+      {
+        if (item == "free")
+          return;
+        if (item == "fixed" || item == "clamped")
+          for (const auto direction : {Direction::x, Direction::y, Direction::z})
+            add(direction);
+        else if (item == "symmetry")
+          add(Direction::plane_normal);
+        else if (item == "diaphragm")
+          add(Direction::within_plane);
+        else
+          {
+            const auto names = condition_names();
+            AssertThrow(std::find(names.begin(), names.end(), key) ==
+                          names.end(),
+                        ExcMessage(where + ": '" + item +
+                                   "' needs a value: write '" + key + " = 0'."));
+            AssertThrow(false,
+                        ExcMessage(
+                          Text::unknown_name(where, "condition", item, names)));
+          }
+        if (item == "clamped" || item == "symmetry")
+          add_rotation("0");
+      }
+    else if (key == "rotation")
+      add_rotation(value);
+    else
+      {
+        auto condition = component(key, value, where, constants);
+        for (const auto &other : conditions.displacements)
+          AssertThrow(other.direction != condition.direction,
+                      ExcMessage(where + ": '" + item + "' prescribes '" + key +
+                                 "' a second time."));
+        conditions.displacements.push_back(std::move(condition));
+      }
+  }
+
+  void
+  BoundaryConditions::prepare(const Midsurface &midsurface,
+                              const Constants  &constants)
+  {
+    edges_.clear();
+    points_.clear();
+    const std::string edges_parameter = "Boundary conditions/Edges";
+    for (const auto &entry : Text::split(edges_text_, ';', edges_parameter))
+      {
+        const auto [names, items] =
+          name_and_items(entry, edges_parameter, "u=0: clamped");
+        for (const auto &name : Text::split(names, ',', edges_parameter))
+          {
+            const auto id    = midsurface.edge_id(name, edges_parameter);
+            const auto where = edges_parameter + ", edge '" + name + "'";
+            AssertThrow(edges_.count(id) == 0,
+                        ExcMessage(where + " has conditions twice; write all "
+                                           "of them in one entry."));
+            const auto parts = Text::split(items, ',', where);
+            AssertThrow(!parts.empty(),
+                        ExcMessage(where + " has no condition; write 'free' if "
+                                           "that is meant."));
+            for (const auto &item : parts)
+              add_edge_item(edges_[id], item, where, constants);
+          }
+      }
+
+    const std::string points_parameter = "Boundary conditions/Points";
+    for (const auto &entry : Text::split(points_text_, ';', points_parameter))
+      {
+        const auto [position, items] =
+          name_and_items(entry, points_parameter, "(0, 0, 0): z = 0");
+        PointSupport support;
+        support.source   = points_parameter + ", point " + position;
+        support.position = evaluate_point(position, support.source, constants);
+        for (const auto &item : Text::split(items, ',', support.source))
+          {
+            const auto [key, value] = Text::key_and_value(item);
+            AssertThrow(key == "x" || key == "y" || key == "z" ||
+                          item == "fixed",
+                        ExcMessage(support.source + ": '" + item +
+                                   "' is not 'x = value', 'y = value', "
+                                   "'z = value' or 'fixed'."));
+            if (item == "fixed")
+              for (const auto *name : {"x", "y", "z"})
+                support.displacements.push_back(
+                  component(name, "0", support.source, constants));
+            else
+              support.displacements.push_back(
+                component(key, value, support.source, constants));
+          }
+        points_.push_back(std::move(support));
+      }
+  }
+
+  const std::map<types::boundary_id, EdgeConditions> &
+  BoundaryConditions::edges() const
+  {
+    return edges_;
+  }
+
+  const std::vector<PointSupport> &
+  BoundaryConditions::points() const
+  {
+    return points_;
+  }
+} // namespace Nacre

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+
+#include <nacre/problem/loads.h>
+#include <nacre/problem/midsurface.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** Call @p add(name, value, where) for each "name[, name]: value; ...". */
+    template <typename Function>
+    void
+    for_each_entry(const std::string &text,
+                   const std::string &parameter,
+                   const Function    &add)
+    {
+      for (const auto &entry : Text::split(text, ';', parameter))
+        {
+          const auto colon = entry.find(':');
+          AssertThrow(colon != std::string::npos,
+                      ExcMessage(parameter + ": '" + entry +
+                                 "' has no ':' between the place and the "
+                                 "load."));
+          for (const auto &place :
+               Text::split(entry.substr(0, colon), ',', parameter))
+            add(place,
+                Text::trim(entry.substr(colon + 1)),
+                parameter + ", '" + place + "'");
+        }
+    }
+  } // namespace
+
+  Loads::Loads()
+    : ParameterAcceptor("/Loads")
+  {
+    add_parameter("Force per area",
+                  force_text_,
+                  "Components along x, y, z, expressions of x, y, z. Units: "
+                  "force/length^2.");
+    add_parameter("Gravity",
+                  gravity_text_,
+                  "Acceleration along x, y, z; the weight per area is Density "
+                  "times Thickness times this. Units: length/time^2.");
+    add_parameter("Pressure",
+                  pressure_text_,
+                  "Along the unit normal t0 of the mid-surface, an expression "
+                  "of x, y, z. Units: force/length^2.");
+    add_parameter("Edge forces",
+                  edge_forces_text_,
+                  "Forces per length of edges: 'edge[, edge]: fx, fy, fz; "
+                  "...', expressions of x, y, z. Units: force/length.");
+    add_parameter("Edge moments",
+                  edge_moments_text_,
+                  "Bending moments m_nn per length of edges: 'edge[, edge]: "
+                  "m; ...'. Units: force.");
+    add_parameter("Point forces",
+                  point_forces_text_,
+                  "'(x, y, z): Fx, Fy, Fz; ...'. Units: length; force.");
+  }
+
+  void
+  Loads::prepare(const Midsurface &midsurface, const Constants &constants)
+  {
+    force_ = VectorExpression(force_text_, "Loads/Force per area", constants);
+    gravity_  = VectorExpression(gravity_text_, "Loads/Gravity", constants);
+    pressure_ = Expression(pressure_text_, "Loads/Pressure", constants);
+
+    const auto unique = [](const bool inserted, const std::string &where) {
+      AssertThrow(inserted, ExcMessage(where + " stands twice."));
+    };
+    edge_forces_.clear();
+    for_each_entry(edge_forces_text_,
+                   "Loads/Edge forces",
+                   [&](const auto &edge, const auto &value, const auto &where) {
+                     unique(edge_forces_
+                              .emplace(midsurface.edge_id(edge, where),
+                                       VectorExpression(value, where, constants))
+                              .second,
+                            where);
+                   });
+    edge_moments_.clear();
+    for_each_entry(edge_moments_text_,
+                   "Loads/Edge moments",
+                   [&](const auto &edge, const auto &value, const auto &where) {
+                     unique(edge_moments_
+                              .emplace(midsurface.edge_id(edge, where),
+                                       Expression(value, where, constants))
+                              .second,
+                            where);
+                   });
+    point_forces_.clear();
+    for_each_entry(point_forces_text_,
+                   "Loads/Point forces",
+                   [&](const auto &point, const auto &value, const auto &where) {
+                     point_forces_.push_back(
+                       {evaluate_point(point, where, constants),
+                        evaluate_point(value, where, constants),
+                        where});
+                   });
+  }
+
+  bool
+  Loads::no_surface_load() const
+  {
+    return force_.is_zero() && gravity_.is_zero() && pressure_.is_zero();
+  }
+
+  Tensor<1, 3>
+  Loads::force_per_area(const Point<3>     &point,
+                        const Tensor<1, 3> &t0,
+                        const double        area_density) const
+  {
+    return force_(point) + area_density * gravity_(point) + pressure_(point) * t0;
+  }
+
+  bool
+  Loads::has_pressure() const
+  {
+    return !pressure_.is_zero();
+  }
+
+  const std::map<types::boundary_id, VectorExpression> &
+  Loads::edge_forces() const
+  {
+    return edge_forces_;
+  }
+
+  const std::map<types::boundary_id, Expression> &
+  Loads::edge_moments() const
+  {
+    return edge_moments_;
+  }
+
+  const std::vector<PointForce> &
+  Loads::point_forces() const
+  {
+    return point_forces_;
+  }
+} // namespace Nacre

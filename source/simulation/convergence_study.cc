@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/output_file.h>
+#include <nacre/base/parameter_input.h>
+#include <nacre/base/text.h>
+
+#include <nacre/postprocess/results_table.h>
+#include <nacre/postprocess/vtu_output.h>
+#include <nacre/simulation/convergence_study.h>
+
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+namespace Nacre
+{
+  ConvergenceStudy::Heading::Heading()
+    : ParameterAcceptor("/")
+  {
+    add_parameter("Title", title, "What the file computes; for the tables.");
+    add_parameter("Constants",
+                  constants,
+                  "Named numbers for all expressions: 'R = 25, L = 2*R'. pi, "
+                  "and E, nu, h of the section where they are numbers, are "
+                  "known as well.");
+  }
+
+  ConvergenceStudy::ConvergenceStudy(const MPI_Comm              communicator,
+                                     std::unique_ptr<SectionLaw> section)
+    : ParameterAcceptor("/Study")
+    , communicator_(communicator)
+    , problem_(communicator, std::move(section))
+  {
+    add_parameter("Name",
+                  name_,
+                  "Name of the output files; by default that of the .prm.");
+    add_parameter("Output folder",
+                  output_folder_,
+                  "Made if it doesn't exist; a relative path starts from the "
+                  "current folder.");
+    add_parameter("Degrees",
+                  degrees_,
+                  "Degrees p of the element, from 2 to 5. Units: none.",
+                  prm,
+                  Patterns::List(Patterns::Integer(2, 5), 1));
+    add_parameter("Penalties",
+                  penalties_,
+                  "Values of eta, the penalty (15); 'default': twice the bound "
+                  "of each cell. Units: none.");
+    add_parameter("Thicknesses",
+                  thicknesses_,
+                  "Thicknesses, expressions of constants; none: "
+                  "'Section/Thickness'. Units: length.");
+    add_parameter("Refinements",
+                  refinements_,
+                  "Global refinements of the coarse mesh; each quarters the "
+                  "cells. Units: none.",
+                  prm,
+                  Patterns::List(Patterns::Integer(0, 12), 1));
+    add_parameter("Write VTU",
+                  write_vtu_,
+                  "Write the fields of every case for ParaView.");
+  }
+
+  void
+  ConvergenceStudy::check_lists() const
+  {
+    AssertThrow(!penalties_.empty(),
+                ExcMessage("Study/Penalties: give 'default' or a number."));
+    AssertThrow(!name_.empty() && name_.find('/') == std::string::npos,
+                ExcMessage("Study/Name: '" + name_ +
+                           "' is no file name; use 'Output folder' for the "
+                           "folder."));
+  }
+
+  std::vector<ShellCase>
+  ConvergenceStudy::make_cases() const
+  {
+    const auto constants = parse_constants(heading_.constants, "Constants");
+
+    std::vector<std::optional<double>> thicknesses, penalties;
+    for (const auto &text : thicknesses_)
+      {
+        thicknesses.emplace_back(
+          evaluate_number(text, "Study/Thicknesses", constants));
+        AssertThrow(*thicknesses.back() > 0.,
+                    ExcMessage("Study/Thicknesses: '" + text +
+                               "' is not positive."));
+      }
+    if (thicknesses.empty())
+      thicknesses.emplace_back();
+    for (const auto &text : penalties_)
+      if (text == "default")
+        penalties.emplace_back();
+      else
+        {
+          penalties.emplace_back(
+            evaluate_number(text, "Study/Penalties", constants));
+          AssertThrow(*penalties.back() > 0.,
+                      ExcMessage("Study/Penalties: eta = '" + text +
+                                 "' is not positive."));
+        }
+
+    std::vector<ShellCase> cases;
+    for (const auto &thickness : thicknesses)
+      for (const auto &eta : penalties)
+        for (const auto degree : degrees_)
+          for (const auto n_refinements : refinements_)
+            cases.push_back({degree, n_refinements, eta, thickness});
+    return cases;
+  }
+
+  void
+  ConvergenceStudy::prepare(const std::string &prm_file)
+  {
+    if (name_.empty())
+      {
+        std::filesystem::path path = std::filesystem::path(prm_file).stem();
+        if (path.extension() == ".used")
+          path = path.stem();
+        name_ = path.string();
+      }
+    check_lists();
+    const auto constants = parse_constants(heading_.constants, "Constants");
+    for (const auto &shell_case : make_cases())
+      {
+        problem_.prepare(constants, shell_case);
+        quantities_.prepare(problem_.midsurface(),
+                            problem_.exact_solution(),
+                            problem_.constants());
+      }
+  }
+
+  void
+  ConvergenceStudy::run(Log &log)
+  {
+    const auto        constants = parse_constants(heading_.constants, "Constants");
+    const std::string base = (std::filesystem::path(output_folder_) / name_).string();
+    run_on_root(communicator_, [&]() {
+      create_folder(output_folder_);
+      write_used_parameters(base + ".used.prm");
+    });
+
+    std::vector<ResultsTable::Quantity> columns;
+    for (const auto &quantity : quantities_.quantities())
+      columns.push_back({quantity.name,
+                         quantity.reference,
+                         quantity.is_error || quantity.reference.has_value()});
+    ResultsTable table(heading_.title, columns);
+    VtuOutput    vtu_output;
+
+    const auto cases = make_cases();
+    for (unsigned int k = 0; k < cases.size(); ++k)
+      {
+        problem_.prepare(constants, cases[k]);
+        quantities_.prepare(problem_.midsurface(),
+                            problem_.exact_solution(),
+                            problem_.constants());
+        problem_.solve(log);
+        const SolvedShell &shell = problem_.solution();
+
+        ResultsTable::Row row;
+        row.element   = problem_.element();
+        row.degree    = cases[k].degree;
+        row.cells     = shell.discretization.triangulation().n_global_active_cells();
+        row.dofs      = shell.discretization.dof_handler().n_dofs();
+        std::ostringstream eta, thickness, line;
+        eta << std::setprecision(4) << problem_.eta();
+        row.eta = cases[k].eta ? eta.str() : "default";
+        thickness << std::setprecision(6);
+        if (problem_.constants().count("h") > 0)
+          thickness << problem_.constants().at("h");
+        else
+          thickness << "varies";
+        row.thickness  = thickness.str();
+        row.setup_s    = problem_.times().setup;
+        row.assembly_s = problem_.times().assembly;
+        row.solve_s    = problem_.times().solve;
+        for (const auto &quantity : quantities_.quantities())
+          {
+            row.values.push_back(quantity.evaluate(shell));
+            row.references.push_back(quantity.reference);
+          }
+        table.add_row(row);
+
+        line << "p " << row.degree << ", h " << row.thickness << ", eta "
+             << eta.str() << ", " << row.cells << " cells, " << row.dofs
+             << " dofs, " << std::fixed << std::setprecision(2)
+             << row.setup_s + row.assembly_s + row.solve_s << " s";
+        if (!row.values.empty())
+          line << ", " << columns.front().name << " = " << std::scientific
+               << std::setprecision(6) << row.values.front();
+        log.progress() << '[' << k + 1 << '/' << cases.size() << "] "
+                       << line.str() << std::endl;
+
+        if (write_vtu_)
+          vtu_output.write(shell.discretization,
+                           shell.section,
+                           shell.membrane_strain,
+                           shell.displacement,
+                           output_folder_,
+                           name_,
+                           k);
+        run_on_root(communicator_, [&]() { table.write_files(base); });
+      }
+
+    std::ostringstream text;
+    table.write_text(text);
+    log.results() << '\n' << heading_.title << '\n' << text.str()
+                  << "\nResults: " << base << ".csv (.txt, .tex"
+                  << (write_vtu_ ? ", .pvd)" : ")") << std::endl;
+  }
+} // namespace Nacre

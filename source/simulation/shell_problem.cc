@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+
+#include <nacre/discretization/displacement_conditions.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/simulation/shell_problem.h>
+#include <nacre/solvers/direct_solver.h>
+
+#include <deal.II/base/timer.h>
+
+namespace Nacre
+{
+  ShellProblem::ShellProblem(const MPI_Comm              communicator,
+                             std::unique_ptr<SectionLaw> section)
+    : ParameterAcceptor("/Discretization")
+    , communicator_(communicator)
+    , section_(std::move(section))
+  {
+    add_parameter("Element",
+                  element_,
+                  "Displacement element: Lagrange, continuous of degree p = 2 "
+                  "to 5 on quadrilaterals.",
+                  prm,
+                  Patterns::Selection("Lagrange"));
+    add_parameter("Mapping degree",
+                  mapping_degree_,
+                  "Degree of the mid-surface's geometry, 1 to 6; 0 is that of "
+                  "the element (isoparametric). Above the element's degree, "
+                  "rigid rotations store some energy.",
+                  prm,
+                  Patterns::Integer(0, 6));
+    add_parameter("Membrane strain",
+                  membrane_strain_name_,
+                  "tied: sampled at Gauss points and interpolated, free of "
+                  "membrane locking; full: integrated as it is, locks; "
+                  "reduced: p x p points with a share of full integration.",
+                  prm,
+                  Patterns::Selection("tied|full|reduced"));
+  }
+
+  ShellProblem::~ShellProblem() = default;
+
+  void
+  ShellProblem::prepare(const Constants &constants, const ShellCase &shell_case)
+  {
+    case_ = shell_case;
+    if (case_.thickness)
+      section_->set_thickness(*case_.thickness);
+    section_->prepare(constants);
+    constants_ = constants;
+    for (const auto &[name, value] : section_->named_constants())
+      {
+        AssertThrow(constants.count(name) == 0,
+                    ExcMessage("Constants: '" + name +
+                               "' is the section's; choose another name."));
+        constants_[name] = value;
+      }
+    midsurface_.prepare(constants_);
+    boundary_conditions_.prepare(midsurface_, constants_);
+    loads_.prepare(midsurface_, constants_);
+    exact_solution_.prepare(constants_);
+  }
+
+  MembraneStrain
+  ShellProblem::membrane_strain() const
+  {
+    const auto &names = membrane_strain_names();
+    return static_cast<MembraneStrain>(
+      std::find(names.begin(), names.end(), membrane_strain_name_) -
+      names.begin());
+  }
+
+  double
+  ShellProblem::eta() const
+  {
+    return operator_->penalty().eta();
+  }
+
+  const SolvedShell &
+  ShellProblem::solution() const
+  {
+    Assert(solution_ != nullptr, ExcNotInitialized());
+    return *solution_;
+  }
+
+  void
+  ShellProblem::warn_of_penalty(Log &log) const
+  {
+    const double bound = operator_->penalty().bound();
+    if (case_.eta && *case_.eta < bound)
+      {
+        std::ostringstream text;
+        text << "Study/Penalties: eta = " << *case_.eta
+             << " is below the bound " << bound
+             << " that makes the form coercive; the matrix may be indefinite.";
+        log.warning(text.str());
+      }
+  }
+
+  void
+  ShellProblem::solve(Log &log)
+  {
+    times_ = SolveTimes();
+    solution_.reset();
+    operator_.reset();
+    discretization_.reset();
+
+    Timer timer(communicator_, true);
+    discretization_ = std::make_unique<Discretization>(midsurface_,
+                                                       communicator_,
+                                                       case_.degree,
+                                                       mapping_degree_,
+                                                       case_.n_refinements);
+    const DisplacementConditions conditions(*discretization_,
+                                            boundary_conditions_);
+    const auto                   motions = conditions.free_rigid_motions();
+    if (!motions.empty())
+      {
+        std::string text = "Boundary conditions: the shell can move freely:";
+        for (const auto &motion : motions)
+          text += (&motion == &motions.front() ? " " : "; ") + motion;
+        AssertThrow(false,
+                    ExcMessage(text + ". Prescribe more on its edges, or at "
+                                      "points."));
+      }
+    operator_ = std::make_unique<ShellOperator>(*discretization_,
+                                                *section_,
+                                                boundary_conditions_,
+                                                loads_,
+                                                membrane_strain(),
+                                                case_.eta);
+    warn_of_penalty(log);
+    timer.stop();
+    times_.setup = timer.cpu_time();
+
+    solve_linear_system(conditions.constraints());
+
+    residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
+    const Energies energies = operator_->residual(displacement_, residual_);
+    solution_               = std::make_unique<SolvedShell>(
+      SolvedShell{*discretization_,
+                  *section_,
+                  *operator_,
+                  membrane_strain(),
+                  exact_solution_,
+                  displacement_,
+                  residual_,
+                  energies});
+  }
+
+  void
+  ShellProblem::solve_linear_system(
+    const AffineConstraints<double> &constraints)
+  {
+    Timer      timer(communicator_, true);
+    const auto lap = [&](double &sum) {
+      timer.stop();
+      sum += timer.cpu_time();
+      timer.restart();
+    };
+    const IndexSet                &owned = discretization_->locally_owned_dofs();
+    TrilinosWrappers::SparseMatrix matrix;
+    operator_->reinit_matrix(constraints, matrix);
+    TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
+    TrilinosWrappers::MPI::Vector solution(owned, communicator_);
+    lap(times_.setup);
+    operator_->assemble_system(constraints, matrix, right_hand_side);
+    lap(times_.assembly);
+
+    DirectSolver solver(communicator_);
+    solver.factorize(matrix);
+    std::ostringstream message;
+    message << "The stiffness matrix is not positive definite: "
+            << solver.n_negative_pivots()
+            << " negative pivots. Study/Penalties: eta = " << eta()
+            << " is too small; the bound is " << operator_->penalty().bound()
+            << ".";
+    AssertThrow(solver.n_negative_pivots() == 0, ExcMessage(message.str()));
+    solver.solve(solution, right_hand_side);
+    lap(times_.solve);
+
+    constraints.distribute(solution);
+    displacement_.reinit(owned,
+                         discretization_->locally_relevant_dofs(),
+                         communicator_);
+    displacement_ = solution;
+  }
+} // namespace Nacre

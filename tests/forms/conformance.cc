@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// The records of conformance/*.json, written by an independent program, for
+// 9-node cells: frames, strains, matrices, forces and energies of cells and
+// of an edge.
+
+#include <nacre/forms/linear_kinematics.h>
+#include <nacre/mechanics/shell_strain.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+// Boost 1.74 notes its own placeholders otherwise.
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS
+#include <boost/property_tree/json_parser.hpp>
+
+#include "../tests_common.h"
+
+using namespace Tests;
+using Json = boost::property_tree::ptree;
+
+const double tolerance = 1e-10;
+
+std::vector<double>
+numbers_of(const Json &json)
+{
+  std::vector<double> numbers;
+  if (json.empty())
+    numbers.push_back(json.get_value<double>());
+  for (const auto &child : json)
+    for (const double x : numbers_of(child.second))
+      numbers.push_back(x);
+  return numbers;
+}
+
+std::vector<double>
+numbers_of(const Json &json, const std::string &key)
+{
+  return numbers_of(json.get_child(key));
+}
+
+/** Largest difference relative to the largest number of the record. */
+void
+compare(const std::string         &name,
+        const std::vector<double> &found,
+        const std::vector<double> &record)
+{
+  double difference = (found.size() == record.size() ? 0. : 1e100);
+  double size       = 1e-300;
+  for (unsigned int i = 0; i < record.size() && i < found.size(); ++i)
+    {
+      const double d = std::abs(found[i] - record[i]);
+      difference     = !(d <= difference) ? d : difference;
+      size           = std::max(size, std::abs(record[i]));
+    }
+  check_below(name, difference / size, tolerance);
+}
+
+/** A section of which only one stiffness counts. */
+class PartialSection : public SectionLaw
+{
+public:
+  PartialSection(const SectionLaw &section, const double membrane)
+    : section_(section)
+    , membrane_(membrane)
+  {}
+
+  void
+  prepare(const Constants &) override
+  {}
+
+  void
+  set_thickness(const double) override
+  {}
+
+  Constants
+  named_constants() const override
+  {
+    return section_.named_constants();
+  }
+
+  double
+  thickness(const Point<3> &point) const override
+  {
+    return section_.thickness(point);
+  }
+
+  double
+  density(const Point<3> &point) const override
+  {
+    return section_.density(point);
+  }
+
+  SectionStiffness
+  stiffness(const SurfaceFrame<> &frame, const Point<3> &point) const override
+  {
+    const auto both = section_.stiffness(frame, point);
+    return {membrane_ * both.membrane, (1. - membrane_) * both.bending};
+  }
+
+private:
+  const SectionLaw &section_;
+  const double      membrane_;
+};
+
+/** Node order of the records: corners, mid-sides, centre of [-1, 1]^2. */
+const std::array<Point<2>, 9> record_nodes = {
+  {{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.},
+   {0., -1.}, {1., 0.}, {0., 1.}, {-1., 0.}, {0., 0.}}};
+
+unsigned int
+record_node(const Point<2> &unit)
+{
+  for (unsigned int k = 0; k < record_nodes.size(); ++k)
+    if ((2. * unit - Point<2>(1., 1.) - record_nodes[k]).norm() < 1e-12)
+      return k;
+  AssertThrow(false, ExcInternalError());
+  return 0;
+}
+
+/** A mesh of the record's nodes with the 9 nodes of each of its cells. */
+std::unique_ptr<Discretization>
+make_discretization(const std::vector<double>                     &nodes,
+                    const std::vector<std::vector<unsigned int>> &cells)
+{
+  const auto node = [&](const unsigned int k) {
+    return Point<3>(nodes[3 * k], nodes[3 * k + 1], nodes[3 * k + 2]);
+  };
+  Mesh                                 mesh;
+  std::map<unsigned int, unsigned int> vertices;
+  for (const auto &cell : cells)
+    {
+      std::array<unsigned int, 4> corners;
+      for (const unsigned int v : {0, 1, 2, 3})
+        {
+          // deal.II counts corners in lexicographic order.
+          const unsigned int k = cell[std::array<int, 4>{{0, 1, 3, 2}}[v]];
+          if (vertices.emplace(k, mesh.vertices.size()).second)
+            mesh.vertices.push_back(node(k));
+          corners[v] = vertices[k];
+        }
+      mesh.cells.push_back(corners);
+    }
+  return std::make_unique<Discretization>(
+    make_triangulation(mesh),
+    [&](const auto &cell, const Point<2> &unit) {
+      return node(cells[cell->index()][record_node(unit)]);
+    },
+    2,
+    0);
+}
+
+/** Local dof of the record's dof 3 k + c, k counted within the cell. */
+std::vector<unsigned int>
+record_dofs(const Discretization &discretization)
+{
+  std::vector<unsigned int> dofs(27);
+  for (unsigned int a = 0; a < 9; ++a)
+    for (unsigned int c = 0; c < 3; ++c)
+      dofs[3 * record_node(discretization.scalar_fe().unit_support_point(a)) +
+           c] = discretization.node_dofs()[3 * a + c];
+  return dofs;
+}
+
+std::vector<double>
+upper_triangle(const FullMatrix<double>        &matrix,
+               const std::vector<unsigned int> &dofs)
+{
+  std::vector<double> numbers;
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    for (unsigned int j = i; j < dofs.size(); ++j)
+      numbers.push_back(matrix(dofs[i], dofs[j]));
+  return numbers;
+}
+
+/** The records' displacement fields at a node. */
+Vector3
+field_value(const std::string &name, const Point<3> &p)
+{
+  const double x = p[0], y = p[1], z = p[2];
+  Vector3      u;
+  if (name == "rigid")
+    {
+      Vector3 omega, shift;
+      omega[0] = 0.3, omega[1] = -0.2, omega[2] = 0.5;
+      shift[0] = 0.1, shift[1] = 0.2, shift[2] = -0.3;
+      u = cross_product_3d(omega, Vector3(p)) + shift;
+    }
+  else if (name == "quadratic")
+    {
+      u[0] = 0.01 * (x * x - y * z);
+      u[1] = 0.01 * (x * y + z);
+      u[2] = 0.01 * (y * y + 2. * x * z - x * x);
+    }
+  else if (name == "trig")
+    {
+      u[0] = 0.01 * std::sin(x + 2. * y);
+      u[1] = 0.01 * std::cos(y - z);
+      u[2] = 0.01 * (std::sin(2. * x) * std::cos(y) + z * z);
+    }
+  else
+    AssertThrow(false, ExcMessage("No such field: " + name));
+  return u;
+}
+
+/** The field at the record's nodes, in the dofs' order. */
+Vector<double>
+field_vector(const std::string               &name,
+             const std::vector<double>       &nodes,
+             const std::vector<unsigned int> &dofs)
+{
+  Vector<double> u(dofs.size());
+  for (unsigned int k = 0; k < dofs.size() / 3; ++k)
+    {
+      const auto value =
+        field_value(name,
+                    {nodes[3 * k], nodes[3 * k + 1], nodes[3 * k + 2]});
+      for (unsigned int c = 0; c < 3; ++c)
+        u[dofs[3 * k + c]] = value[c];
+    }
+  return u;
+}
+
+std::vector<double>
+in_record_order(const Vector<double>            &vector,
+                const std::vector<unsigned int> &dofs,
+                const double                     factor = 1.)
+{
+  std::vector<double> numbers;
+  for (const unsigned int i : dofs)
+    numbers.push_back(factor * vector[i]);
+  return numbers;
+}
+
+Parameters
+parameters_of(const Json &record)
+{
+  return Parameters(section_text(record.get<double>("E"),
+                                 record.get<double>("nu"),
+                                 record.get<double>("h")));
+}
+
+/** Our reference cell is half as long: derivatives are twice as large. */
+void
+test_samples(const Json                      &record,
+             const Discretization            &discretization,
+             const SectionLaw                &section,
+             const std::vector<unsigned int> &dofs)
+{
+  std::vector<Point<2>> points;
+  for (const auto &sample : record.get_child("samples"))
+    {
+      const auto xi = numbers_of(sample.second, "xi");
+      points.emplace_back(0.5 * (xi[0] + 1.), 0.5 * (xi[1] + 1.));
+    }
+  ShellCellValues values(discretization,
+                         Quadrature<2>(points,
+                                       std::vector<double>(points.size(), 1.)),
+                         false);
+  values.reinit(discretization.triangulation().begin_active());
+
+  unsigned int q = 0;
+  for (const auto &entry : record.get_child("samples"))
+    {
+      const auto &sample = entry.second;
+      const auto  name   = record.get<std::string>("name") + ", sample " +
+                        std::to_string(q) + ": ";
+      const auto &frame = values.frame(q);
+      const auto  check_vector =
+        [&](const std::string &key, const Vector3 &v, const double factor) {
+          compare(name + key,
+                  {factor * v[0], factor * v[1], factor * v[2]},
+                  numbers_of(sample, key));
+        };
+      check_vector("x", Vector3(values.point(q)), 1.);
+      check_vector("phi_1", frame.a_cov[0], 0.5);
+      check_vector("phi_2", frame.a_cov[1], 0.5);
+      check_vector("phi_11", frame.a_cov_derivatives[0], 0.25);
+      check_vector("phi_22", frame.a_cov_derivatives[1], 0.25);
+      check_vector("phi_12", frame.a_cov_derivatives[2], 0.25);
+      check_vector("phi_up_1", frame.a_con[0], 2.);
+      check_vector("phi_up_2", frame.a_con[1], 2.);
+      check_vector("t0", frame.t0, 1.);
+      compare(name + "j0", {0.25 * frame.j0}, numbers_of(sample, "j0"));
+
+      const auto          stiffness = section.stiffness(frame, values.point(q));
+      std::vector<double> H_n, H_m;
+      for (unsigned int v = 0; v < 3; ++v)
+        for (unsigned int w = 0; w < 3; ++w)
+          {
+            H_n.push_back(16. * stiffness.membrane[v][w]);
+            H_m.push_back(16. * stiffness.bending[v][w]);
+          }
+      compare(name + "Hn_voigt", H_n, numbers_of(sample, "Hn_voigt"));
+      compare(name + "Hm_voigt", H_m, numbers_of(sample, "Hm_voigt"));
+      ++q;
+      if (sample.count("Bn") == 0)
+        continue;
+
+      std::vector<double> B_n, B_m, Dt(81);
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const unsigned int i : dofs)
+          {
+            B_n.push_back(0.25 * values.membrane_rows()(3 * (q - 1) + v, i));
+            B_m.push_back(0.25 * values.bending_rows()(3 * (q - 1) + v, i));
+          }
+      for (unsigned int a = 0; a < 9; ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            Vector3 e;
+            e[c]            = 1.;
+            const auto &dN  = values.shapes().gradient(q - 1, a);
+            const auto  row = ShellStrain::normal_change(
+              frame, {{dN[0] * e, dN[1] * e}});
+            const auto k =
+              record_node(discretization.scalar_fe().unit_support_point(a));
+            for (unsigned int r = 0; r < 3; ++r)
+              Dt[27 * r + 3 * k + c] = row[r];
+          }
+      compare(name + "Bn", B_n, numbers_of(sample, "Bn"));
+      compare(name + "Bm", B_m, numbers_of(sample, "Bm"));
+      compare(name + "Dt", Dt, numbers_of(sample, "Dt"));
+    }
+}
+
+/** rho_ab(u) = -t0 . hess u, the second gradient in space. */
+void
+test_space_hessian(const std::string    &name,
+                   const Discretization &discretization)
+{
+  const QGauss<2> quadrature(3);
+  ShellCellValues values(discretization, quadrature, false);
+  values.reinit(discretization.triangulation().begin_active());
+  FEValues<2, 3> fe_values(discretization.mapping(),
+                           discretization.scalar_fe(),
+                           quadrature,
+                           update_hessians);
+  fe_values.reinit(static_cast<Triangulation<2, 3>::cell_iterator>(
+    discretization.triangulation().begin_active()));
+  double error = 0., size = 0.;
+  for (unsigned int q = 0; q < quadrature.size(); ++q)
+    for (unsigned int a = 0; a < 9; ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            const auto &frame = values.frame(q);
+            const auto &a_1   = frame.a_cov[v == 1 ? 1 : 0];
+            const auto &a_2   = frame.a_cov[v == 0 ? 0 : 1];
+            const auto  rho   = -(v == 2 ? 2. : 1.) * frame.t0[c] *
+                             (a_1 * (fe_values.shape_hessian(a, q) * a_2));
+            size  = std::max(size, std::abs(rho));
+            error = std::max(error,
+                             std::abs(rho - values.bending_rows()(
+                                              3 * q + v, values.dof(a, c))));
+          }
+  check_below(name + ": bending strain is -t0 . hess u", error / size, 1e-11);
+}
+
+void
+test_element(const Json &record)
+{
+  const auto name       = record.get<std::string>("name");
+  const auto parameters = parameters_of(record);
+  const auto nodes      = numbers_of(record, "nodes");
+
+  const auto discretization =
+    make_discretization(nodes, {{0, 1, 2, 3, 4, 5, 6, 7, 8}});
+  const auto dofs = record_dofs(*discretization);
+  const auto cell = discretization->triangulation().begin_active();
+  test_samples(record, *discretization, parameters.section, dofs);
+  test_space_hessian(name, *discretization);
+
+  for (const std::string part : {"membrane", "bending"})
+    {
+      const PartialSection section(parameters.section,
+                                   part == "membrane" ? 1. : 0.);
+      LinearKinematics     kinematics(*discretization,
+                                  section,
+                                  MembraneStrain::full);
+      LocalTerms           terms;
+      terms.reinit(27);
+      kinematics.add_cell_terms(cell, Vector<double>(), terms);
+      compare(name + ": K_" + part,
+              upper_triangle(terms.tangent, dofs),
+              numbers_of(record, "K_" + part + "_upper"));
+
+      terms.wants_tangent = false;
+      for (const auto &field : record.get_child("fields"))
+        {
+          const auto field_name = field.second.get<std::string>("name");
+          const auto where = name + ", field " + field_name + ": ";
+          terms.reinit(27);
+          kinematics.add_cell_terms(cell,
+                                    field_vector(field_name, nodes, dofs),
+                                    terms);
+          const double energy = (part == "membrane" ? terms.energies.membrane :
+                                                      terms.energies.bending);
+          const double other  = terms.energies.total() - energy;
+          if (field_name == "rigid")
+            check_below(where + "U_" + part, std::abs(energy), 1e-12);
+          else
+            compare(where + "U_" + part,
+                    {energy, other},
+                    {field.second.get<double>("U_" + part), 0.});
+          if (field.second.count("f_" + part) == 1)
+            compare(where + "f_" + part,
+                    in_record_order(terms.residual, dofs),
+                    numbers_of(field.second, "f_" + part));
+        }
+    }
+}
+
+void
+test_edge(const Json &record)
+{
+  const auto name       = record.get<std::string>("name");
+  const auto parameters = parameters_of(record);
+  const auto nodes      = numbers_of(record, "nodes");
+
+  std::vector<std::vector<unsigned int>> cells;
+  for (const auto &cell : record.get_child("conn"))
+    {
+      cells.emplace_back();
+      for (const double k : numbers_of(cell.second))
+        cells.back().push_back(static_cast<unsigned int>(k));
+    }
+  const auto discretization = make_discretization(nodes, cells);
+
+  // K^- and K^+ as in the record.
+  const auto cell_of = [&](const std::string &key) {
+    for (const auto &cell :
+         discretization->dof_handler().active_cell_iterators())
+      if (cell->index() == record.get<int>(key))
+        return cell;
+    AssertThrow(false, ExcInternalError());
+    return discretization->dof_handler().begin_active();
+  };
+  const auto   minus = cell_of("K_minus");
+  const auto   plus  = cell_of("K_plus");
+  unsigned int face  = 0;
+  while (minus->at_boundary(face))
+    ++face;
+  ShellEdgeValues edge(*discretization);
+  edge.reinit(minus,
+              face,
+              numbers::invalid_unsigned_int,
+              plus,
+              minus->neighbor_of_neighbor(face),
+              numbers::invalid_unsigned_int);
+
+  // The record's dofs among those of the edge.
+  std::vector<unsigned int> dofs(edge.n_dofs(), numbers::invalid_unsigned_int);
+  for (unsigned int side = 0; side < 2; ++side)
+    for (unsigned int a = 0; a < 9; ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        dofs[3 * cells[(side == 0 ? minus : plus)->index()][record_node(
+                   discretization->scalar_fe().unit_support_point(a))] +
+             c] = edge.dof(side, a, c);
+
+  double tangents = 0., conormals = 0., orientation = 0.;
+  for (unsigned int q = 0; q < edge.n_points(); ++q)
+    {
+      tangents = std::max(tangents,
+                          (edge.frame(0, q).t0 - edge.frame(1, q).t0).norm());
+      conormals = std::max(conormals,
+                           (edge.conormal(0, q) - edge.conormal(1, q)).norm());
+      orientation =
+        std::max(orientation, std::abs(edge.sigma(1, q) - 1.));
+    }
+  check_below(name + ": normals agree", tangents, 1e-13);
+  check_below(name + ": conormals agree", conormals, 1e-13);
+  check_below(name + ": sigma", orientation, 1e-13);
+
+  LinearKinematics kinematics(*discretization,
+                              parameters.section,
+                              MembraneStrain::full);
+  const double     eta_e = record.get<double>("eta_e");
+  LocalTerms       whole, consistency;
+  whole.reinit(edge.n_dofs());
+  consistency.reinit(edge.n_dofs());
+  kinematics.add_edge_terms(edge, eta_e, Vector<double>(), whole);
+  kinematics.add_edge_terms(edge, 0., Vector<double>(), consistency);
+  compare(name + ": K_consistency",
+          upper_triangle(consistency.tangent, dofs),
+          numbers_of(record, "K_consistency_upper"));
+  whole.tangent.add(-1., consistency.tangent);
+  compare(name + ": K_penalty",
+          upper_triangle(whole.tangent, dofs),
+          numbers_of(record, "K_penalty_upper"));
+
+  for (const auto &field : record.get_child("fields"))
+    {
+      const auto where = name + ", field " + field.first + ": ";
+      const auto u     = field_vector(field.first, nodes, dofs);
+      const auto hinge = field.second.get_child("hinge");
+      whole.reinit(edge.n_dofs());
+      consistency.reinit(edge.n_dofs());
+      kinematics.add_edge_terms(edge, eta_e, u, whole);
+      kinematics.add_edge_terms(edge, 0., u, consistency);
+      const double penalty = whole.energies.edge - consistency.energies.edge;
+      if (field.first == "trig")
+        {
+          compare(where + "U_penalty",
+                  {penalty},
+                  {hinge.get<double>("U_penalty")});
+          compare(where + "U_consistency",
+                  {consistency.energies.edge},
+                  {hinge.get<double>("U_consistency")});
+        }
+      else
+        {
+          check_below(where + "U_penalty", std::abs(penalty), 1e-14);
+          check_below(where + "U_consistency",
+                      std::abs(consistency.energies.edge),
+                      1e-14);
+        }
+    }
+
+  const EdgePenalty penalty(*discretization,
+                            parameters.section,
+                            record.get<double>("eta"));
+  compare(name + ": eta_e", {penalty.interior(minus, plus)}, {eta_e});
+  compare(name + ": h_e",
+          {record.get<double>("eta") / penalty.interior(plus, minus)},
+          {record.get<double>("h_e")});
+}
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const std::string                folder = SOURCE_DIR "/conformance/";
+  Json                             records;
+  boost::property_tree::read_json(folder + "elements.json", records);
+  for (const auto &record : records)
+    test_element(record.second);
+  boost::property_tree::read_json(folder + "edges.json", records);
+  for (const auto &record : records)
+    test_edge(record.second);
+  return n_failures > 0;
+}

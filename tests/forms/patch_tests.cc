@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// Patch tests: solutions that the elements contain come out exactly, with
+// prescribed displacements, rotations and moments on the edges.
+
+#include <nacre/discretization/displacement_conditions.h>
+
+#include <nacre/problem/midsurface.h>
+
+#include <nacre/solvers/direct_solver.h>
+
+#include "../tests_common.h"
+
+using namespace Tests;
+
+struct Case
+{
+  std::string name;
+  /** Position over the unit square. */
+  std::string  position;
+  unsigned int degree;
+  unsigned int mapping_degree;
+  /** Conditions of the four edges, and edge loads. */
+  std::string edges;
+  std::string loads;
+  VectorField exact;
+  double      tolerance;
+};
+
+/** Largest error of the solution's nodes relative to the largest value. */
+void
+test_patch(const Case &patch)
+{
+  ParameterAcceptor::clear();
+  LinearElasticSection section;
+  Midsurface           midsurface;
+  BoundaryConditions   conditions;
+  Loads                loads;
+  ParameterAcceptor::declare_all_parameters();
+  ParameterAcceptor::prm.parse_input_from_string(
+    section_text(1000., 0.3, 0.4) +
+    "subsection Mid-surface\n set Surface = expression\n"
+    " set Subdivisions = 3, 3\n subsection expression\n  set Position = " +
+    patch.position +
+    "\n end\nend\nsubsection Boundary conditions\n set Edges = " + patch.edges +
+    "\nend\nsubsection Loads\n " + patch.loads + "\nend\n");
+  ParameterAcceptor::parse_all_parameters();
+  section.prepare({});
+  midsurface.prepare({});
+  const Constants constants = {{"D", 1000. * 0.064 / (12. * 0.91)}};
+  conditions.prepare(midsurface, constants);
+  loads.prepare(midsurface, constants);
+
+  const Discretization discretization(midsurface,
+                                      MPI_COMM_WORLD,
+                                      patch.degree,
+                                      patch.mapping_degree,
+                                      0);
+  const DisplacementConditions displacements(discretization, conditions);
+  const ShellOperator          shell_operator(discretization,
+                                     section,
+                                     conditions,
+                                     loads,
+                                     MembraneStrain::tied,
+                                     {});
+  const auto                  &constraints = displacements.constraints();
+  TrilinosWrappers::SparseMatrix matrix;
+  TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
+  TrilinosVector u(load);
+  shell_operator.reinit_matrix(constraints, matrix);
+  shell_operator.assemble_system(constraints, matrix, load);
+  DirectSolver solver(MPI_COMM_WORLD);
+  solver.factorize(matrix);
+  solver.solve(u, load);
+  constraints.distribute(u);
+
+  const auto exact = interpolate(discretization, patch.exact);
+  double     error = 0.;
+  for (unsigned int i = 0; i < u.size(); ++i)
+    error = std::max(error, std::abs(u(i) - exact(i)));
+  check_below(patch.name, error / exact.linfty_norm(), patch.tolerance);
+  check_below(patch.name + ": negative pivots",
+              solver.n_negative_pivots(),
+              1);
+
+  // The residual of the solution vanishes on all free dofs.
+  TrilinosVector residual(load);
+  shell_operator.residual(u, residual);
+  const double reactions = residual.linfty_norm();
+  for (unsigned int i = 0; i < u.size(); ++i)
+    if (constraints.is_constrained(i))
+      residual(i) = 0.;
+  residual.compress(VectorOperation::insert);
+  check_below(patch.name + ": residual",
+              residual.linfty_norm() / reactions,
+              1e-10);
+}
+
+const std::string skew = "u + 0.3*v, v, 0";
+/** Straight boundary, all inner cells distorted. */
+const std::string distorted = "u + 1.5*u*(1-u)*v*(1-v)*(0.7+u*v), "
+                              "v + 2*u*(1-u)*v*(1-v)*(0.3-u), 0";
+
+void
+test_membrane()
+{
+  // u linear in the plane, all edges prescribed, or stresses on one of them:
+  // sigma_xx = E/(1-nu^2) (e_xx + nu e_yy) times h = 0.4.
+  const std::string fixed = "x = 0.01*x + 0.03*y, y = 0.02*y - 0.01*x, z = 0";
+  const VectorField exact = [](const Point<3> &x) {
+    Vector3 u;
+    u[0] = 0.01 * x[0] + 0.03 * x[1];
+    u[1] = 0.02 * x[1] - 0.01 * x[0];
+    return u;
+  };
+  // n = h C eps: n_xx = 400/0.91 (0.01 + 0.3 0.02), n_xy = 400/2.6 0.02
+  const std::string force =
+    "set Edge forces = u=1: 400/0.91*0.016, 400/2.6*0.02, 0";
+  for (const unsigned int p : {2, 3})
+    {
+      const auto degree = ", p = " + std::to_string(p);
+      test_patch({"membrane, skew cells" + degree,
+                  skew,
+                  p,
+                  0,
+                  "u=0, u=1, v=0, v=1: " + fixed,
+                  "",
+                  exact,
+                  1e-12});
+      test_patch({"membrane, distorted cells, edge force" + degree,
+                  distorted,
+                  p,
+                  1,
+                  "u=0, v=0, v=1: " + fixed + "; u=1: z = 0",
+                  force,
+                  exact,
+                  1e-11});
+    }
+}
+
+void
+test_bending()
+{
+  // w = 0.01 x^2 + 0.02 x y - 0.03 y^2 and its slopes; rho = -hess w.
+  const std::string w   = "z = 0.01*x^2 + 0.02*x*y - 0.03*y^2, x = 0, y = 0";
+  const std::string w_x = "(0.02*x + 0.02*y)";
+  const std::string w_y = "(0.02*x - 0.06*y)";
+  const VectorField exact = [](const Point<3> &x) {
+    Vector3 u;
+    u[2] = 0.01 * x[0] * x[0] + 0.02 * x[0] * x[1] - 0.03 * x[1] * x[1];
+    return u;
+  };
+  const std::string skew_edges =
+    "v=0: " + w + ", rotation = -" + w_y + "; v=1: " + w + ", rotation = " +
+    w_y + "; u=0: " + w + ", rotation = (-" + w_x + " + 0.3*" + w_y +
+    ")/sqrt(1.09); u=1: " + w + ", rotation = (" + w_x + " - 0.3*" + w_y +
+    ")/sqrt(1.09)";
+  const std::string square_edges =
+    "v=0: " + w + ", rotation = -" + w_y + "; v=1: " + w + ", rotation = " +
+    w_y + "; u=0: " + w + ", rotation = -" + w_x + "; u=1: " + w;
+  // m_xx = D (rho_xx + nu rho_yy), rho = -(0.02, -0.06)
+  const std::string moment = "set Edge moments = u=1: D*(-0.02 + 0.3*0.06)";
+  for (const unsigned int p : {2, 3})
+    {
+      const auto degree = ", p = " + std::to_string(p);
+      test_patch({"bending, skew cells, rotations" + degree,
+                  skew,
+                  p,
+                  0,
+                  skew_edges,
+                  "",
+                  exact,
+                  p == 2 ? 1e-11 : 1e-10});
+      test_patch({"bending, square cells, moment" + degree,
+                  "u, v, 0",
+                  p,
+                  0,
+                  square_edges,
+                  moment,
+                  exact,
+                  p == 2 ? 1e-11 : 1e-10});
+      // Rational integrands: the edges' rule isn't exact.
+      test_patch({"bending, distorted cells, moment" + degree,
+                  distorted,
+                  p,
+                  1,
+                  square_edges,
+                  moment,
+                  exact,
+                  p == 2 ? 1e-5 : 1e-6});
+    }
+}
+
+/** A plane in space: components along normal, conormal and tangent. */
+void
+test_in_space()
+{
+  // x' = 0.6 x + 0.8 z in the plane, normal (-0.8, 0, 0.6). Displacement
+  // w = 0.01 x'^2 along the normal and 0.02 x' in the plane.
+  const std::string x     = "(0.6*x + 0.8*z)";
+  const std::string w     = "normal = 0.01*" + x + "^2";
+  const VectorField exact = [](const Point<3> &p) {
+    const double x = 0.6 * p[0] + 0.8 * p[2];
+    const double w = 0.01 * x * x, v = 0.02 * x;
+    Vector3      u;
+    u[0] = 0.6 * v - 0.8 * w;
+    u[2] = 0.8 * v + 0.6 * w;
+    return u;
+  };
+  // The tangent t0 x n is (-x') on v = 1 and x' on v = 0.
+  test_patch({"plane in space, components of the edges' frames",
+              "0.6*u, v, 0.8*u",
+              2,
+              0,
+              "u=0: " + w + ", conormal = -0.02*" + x +
+                ", tangent = 0, rotation = -0.02*" + x + "; u=1: " + w +
+                ", conormal = 0.02*" + x +
+                ", tangent = 0, rotation = 0.02*" + x + "; v=0: " + w +
+                ", conormal = 0, tangent = 0.02*" + x +
+                ", rotation = 0; v=1: " + w +
+                ", conormal = 0, tangent = -0.02*" + x + ", rotation = 0",
+              "",
+              exact,
+              1e-11});
+}
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_membrane();
+  test_bending();
+  test_in_space();
+  return n_failures > 0;
+}

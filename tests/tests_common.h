@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_tests_common_h
+#define nacre_tests_common_h
+
+#include <nacre/discretization/discretization.h>
+
+#include <nacre/forms/shell_operator.h>
+
+#include <nacre/mechanics/linear_elastic_section.h>
+
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/loads.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+/** What several tests share. */
+namespace Tests
+{
+  using namespace Nacre;
+  using Vector3      = Tensor<1, 3>;
+  using VectorField  = std::function<Vector3(const Point<3> &)>;
+  using TrilinosVector = TrilinosWrappers::MPI::Vector;
+
+  inline unsigned int n_failures = 0;
+
+  /** Prints "name: OK (< bound)", or the value if it isn't below the bound. */
+  inline void
+  check_below(const std::string &name, const double value, const double bound)
+  {
+    if (value < bound) // false for NaN
+      std::cout << name << ": OK (< " << bound << ")" << std::endl;
+    else
+      {
+        ++n_failures;
+        std::cout << name << ": FAILED, " << value << " instead of < " << bound
+                  << std::endl;
+      }
+  }
+
+  inline void
+  check_above(const std::string &name, const double value, const double bound)
+  {
+    if (value > bound)
+      std::cout << name << ": OK (> " << bound << ")" << std::endl;
+    else
+      {
+        ++n_failures;
+        std::cout << name << ": FAILED, " << value << " instead of > " << bound
+                  << std::endl;
+      }
+  }
+
+  /** Section, conditions and loads with the parameters of a text. */
+  struct Parameters
+  {
+    explicit Parameters(const std::string &text = "")
+    {
+      ParameterAcceptor::declare_all_parameters();
+      ParameterAcceptor::prm.parse_input_from_string(text);
+      ParameterAcceptor::parse_all_parameters();
+      section.prepare({});
+    }
+
+    LinearElasticSection section;
+    BoundaryConditions   conditions;
+    Loads                loads;
+  };
+
+  inline std::string
+  section_text(const double E, const double nu, const double h)
+  {
+    return "subsection Section\n set Young's modulus = " + std::to_string(E) +
+           "\n set Poisson's ratio = " + std::to_string(nu) +
+           "\n set Thickness = " + std::to_string(h) + "\nend\n";
+  }
+
+  /** Coarse cells, vertices in deal.II's order, and a map of space. */
+  struct Mesh
+  {
+    std::vector<Point<3>>                     vertices;
+    std::vector<std::array<unsigned int, 4>>  cells;
+    std::function<Point<3>(const Point<3> &)> map = [](const Point<3> &x) {
+      return x;
+    };
+    /** Coarse cells to refine once. */
+    std::vector<unsigned int> refined;
+  };
+
+  using PositionFunction =
+    std::function<Point<3>(const Triangulation<2, 3>::cell_iterator &,
+                           const Point<2> &)>;
+
+  inline std::unique_ptr<parallel::TriangulationBase<2, 3>>
+  make_triangulation(const Mesh &mesh)
+  {
+    std::vector<CellData<2>> cells(mesh.cells.size());
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      cells[k].vertices.assign(mesh.cells[k].begin(), mesh.cells[k].end());
+    auto triangulation =
+      std::make_unique<parallel::distributed::Triangulation<2, 3>>(
+        MPI_COMM_WORLD);
+    triangulation->create_triangulation(mesh.vertices, cells, SubCellData());
+    if (!mesh.refined.empty())
+      {
+        for (const auto &cell : triangulation->active_cell_iterators())
+          for (const unsigned int k : mesh.refined)
+            if (static_cast<unsigned int>(cell->index()) == k)
+              cell->set_refine_flag();
+        triangulation->execute_coarsening_and_refinement();
+      }
+    return triangulation;
+  }
+
+  /** The map of the bilinear interpolation of the vertices. */
+  inline std::unique_ptr<Discretization>
+  make_discretization(const Mesh        &mesh,
+                      const unsigned int degree,
+                      const unsigned int mapping_degree = 0)
+  {
+    const PositionFunction position = [&](const auto &cell, const auto &unit) {
+      Point<3> x;
+      for (const unsigned int v : cell->vertex_indices())
+        x += GeometryInfo<2>::d_linear_shape_function(unit, v) *
+             Vector3(cell->vertex(v));
+      return mesh.map(x);
+    };
+    return std::make_unique<Discretization>(make_triangulation(mesh),
+                                            position,
+                                            degree,
+                                            mapping_degree);
+  }
+
+  /** Nodal interpolation, on one rank. */
+  inline TrilinosVector
+  interpolate(const Discretization &discretization, const VectorField &field)
+  {
+    TrilinosVector u(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
+    std::vector<types::global_dof_index> dofs(
+      discretization.node_dofs().size());
+    for (const auto &cell :
+         discretization.dof_handler().active_cell_iterators())
+      {
+        cell->get_dof_indices(dofs);
+        const auto nodes = discretization.node_positions(cell);
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          {
+            const auto value = field(nodes[a]);
+            for (unsigned int c = 0; c < 3; ++c)
+              u(dofs[discretization.node_dofs()[3 * a + c]]) = value[c];
+          }
+      }
+    u.compress(VectorOperation::insert);
+    discretization.hanging_node_constraints().distribute(u);
+    return u;
+  }
+
+  /** The assembled matrix and load, constrained rows and columns included. */
+  inline std::pair<FullMatrix<double>, Vector<double>>
+  dense_system(const Discretization            &discretization,
+               const ShellOperator             &shell_operator,
+               const AffineConstraints<double> &constraints)
+  {
+    TrilinosWrappers::SparseMatrix matrix;
+    TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
+    shell_operator.reinit_matrix(constraints, matrix);
+    shell_operator.assemble_system(constraints, matrix, load);
+    const unsigned int n = matrix.m();
+    std::pair<FullMatrix<double>, Vector<double>> dense;
+    dense.first.reinit(n, n);
+    dense.second.reinit(n);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+          dense.first(i, entry->column()) = entry->value();
+        dense.second[i] = load(i);
+      }
+    return dense;
+  }
+
+  /** Eigenvalues, ascending, of the unconstrained rows and columns. */
+  inline Vector<double>
+  eigenvalues(const FullMatrix<double>        &matrix,
+              const AffineConstraints<double> &constraints)
+  {
+    std::vector<unsigned int> free;
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      if (!constraints.is_constrained(i))
+        free.push_back(i);
+    LAPACKFullMatrix<double> reduced(free.size());
+    for (unsigned int i = 0; i < free.size(); ++i)
+      for (unsigned int j = 0; j < free.size(); ++j)
+        reduced(i, j) =
+          0.5 * (matrix(free[i], free[j]) + matrix(free[j], free[i]));
+    Vector<double>     values;
+    FullMatrix<double> vectors;
+    const double       bound = 2. * reduced.linfty_norm();
+    reduced.compute_eigenvalues_symmetric(-bound, bound, 0., values, vectors);
+    return values;
+  }
+
+  /** Largest difference relative to the largest entry of @p expected. */
+  inline double
+  relative_difference(const FullMatrix<double> &found,
+                      const FullMatrix<double> &expected)
+  {
+    double difference = 0., size = 0.;
+    for (unsigned int i = 0; i < expected.m(); ++i)
+      for (unsigned int j = 0; j < expected.n(); ++j)
+        {
+          // The negated comparison keeps NaN.
+          const double d = std::abs(found(i, j) - expected(i, j));
+          difference     = !(d <= difference) ? d : difference;
+          size           = std::max(size, std::abs(expected(i, j)));
+        }
+    return difference / size;
+  }
+} // namespace Tests
+
+#endif
