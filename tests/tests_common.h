@@ -19,6 +19,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -35,31 +36,37 @@ namespace Tests
 
   inline unsigned int n_failures = 0;
 
-  /** Prints "name: OK (< bound)", or the value if it isn't below the bound. */
+  /**
+   * Prints "name: OK (< bound)", or the value if it isn't so. With the
+   * environment variable NACRE_TEST_VALUES set, always the value.
+   */
+  inline void
+  check(const std::string &name,
+        const bool         good,
+        const double       value,
+        const std::string &relation,
+        const double       bound)
+  {
+    n_failures += (good ? 0 : 1);
+    std::cout << name << ": ";
+    if (good && std::getenv("NACRE_TEST_VALUES") == nullptr)
+      std::cout << "OK (";
+    else
+      std::cout << (good ? "OK, " : "FAILED, ") << value << " (";
+    std::cout << relation << ' ' << bound << ')' << std::endl;
+  }
+
+  /** Comparisons with NaN are false, thus failures. */
   inline void
   check_below(const std::string &name, const double value, const double bound)
   {
-    if (value < bound) // false for NaN
-      std::cout << name << ": OK (< " << bound << ")" << std::endl;
-    else
-      {
-        ++n_failures;
-        std::cout << name << ": FAILED, " << value << " instead of < " << bound
-                  << std::endl;
-      }
+    check(name, value < bound, value, "<", bound);
   }
 
   inline void
   check_above(const std::string &name, const double value, const double bound)
   {
-    if (value > bound)
-      std::cout << name << ": OK (> " << bound << ")" << std::endl;
-    else
-      {
-        ++n_failures;
-        std::cout << name << ": FAILED, " << value << " instead of > " << bound
-                  << std::endl;
-      }
+    check(name, value > bound, value, ">", bound);
   }
 
   /** Section, conditions and loads with the parameters of a text. */

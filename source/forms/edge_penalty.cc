@@ -22,6 +22,10 @@ namespace Nacre
                   QGauss<dim>(discretization.degree() + 1),
                   false)
         , edge_(discretization)
+        , perimeter_values_(discretization.mapping(),
+                            fe_nothing_,
+                            QGauss<1>(discretization.degree() + 2),
+                            update_JxW_values)
         , discretization_(discretization)
       {}
 
@@ -40,11 +44,15 @@ namespace Nacre
                                          cell->n_faces() * n_points);
         for (const auto face : cell->face_indices())
           {
+            perimeter_values_.reinit(
+              static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell),
+              face);
+            for (const double ds : perimeter_values_.get_JxW_values())
+              perimeter += ds;
             edge_.reinit(cell, face);
             for (unsigned int q = 0; q < n_points; ++q)
               {
                 hinge_.reinit(edge_, 0, q, section_);
-                perimeter += edge_.JxW(q);
                 const double weight =
                   std::sqrt(edge_.JxW(q) / hinge_.stiffness);
                 for (unsigned int a = 0; a < hinge_.moment.size(); ++a)
@@ -108,6 +116,9 @@ namespace Nacre
       const SectionLaw     &section_;
       ShellCellValues       values_;
       ShellEdgeValues       edge_;
+      /** Lengths of curved edges, with a point more than the form's. */
+      FE_Nothing<dim, spacedim>   fe_nothing_;
+      FEFaceValues<dim, spacedim> perimeter_values_;
       HingeSide             hinge_;
       const Discretization &discretization_;
     };

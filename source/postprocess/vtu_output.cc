@@ -254,6 +254,7 @@ namespace Nacre
           states.reinit(cell);
           Patch patch;
           patch.patch_index          = patches_.size();
+          patch.reference_cell       = cell->reference_cell();
           patch.n_subdivisions       = degree;
           patch.points_are_available = true;
           patch.data.reinit(n_components + spacedim, points.size());

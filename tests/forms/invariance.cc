@@ -242,9 +242,27 @@ test_coercivity(const Parameters &parameters)
         check_below(name + "smallest eigenvalue at eta = 0.01",
                     smallest(0.01),
                     -1e-8);
-        // Not a wild overestimate either.
-        check_below(name + "bound", bound, degree * (degree - 1));
       }
+}
+
+/** The bound on squares at nu = 0 is p (p - 1) / 8. */
+void
+test_bound()
+{
+  const Parameters parameters(section_text(100., 0., 0.2));
+  Mesh             mesh;
+  mesh.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}};
+  mesh.cells    = {{{0, 1, 2, 3}}};
+  mesh.refined  = {0};
+  for (const unsigned int degree : {2, 3, 4, 5})
+    {
+      const auto   discretization = make_discretization(mesh, degree);
+      const double bound =
+        EdgePenalty(*discretization, parameters.section, {}).bound();
+      check_below("bound on squares, p = " + std::to_string(degree),
+                  std::abs(bound / (degree * (degree - 1.) / 8.) - 1.),
+                  1e-6);
+    }
 }
 
 /** A surface symmetric about x = 0, or its half x > 0. */
@@ -372,6 +390,7 @@ main(int argc, char *argv[])
     test_residual(parameters);
     test_coercivity(parameters);
   }
+  test_bound();
   test_mirror();
   test_clamped_coercivity();
   return n_failures > 0;

@@ -425,6 +425,11 @@ namespace
               vtu.find("Name=\"moments\" NumberOfComponents=\"9\"") !=
                 std::string::npos),
            "arrays of the .vtu");
+    // A cell's reference cell must be known for this array to be filled.
+    const auto offsets = vtu.find("Name=\"offsets\" format=\"binary\">\n");
+    report(!root || (offsets != std::string::npos &&
+                     vtu[vtu.find('\n', offsets) + 1] != '\n'),
+           "cells of the .vtu");
 
     // A file where a folder should be.
     if (root)

@@ -27,10 +27,10 @@ namespace Nacre
   /**
    * Sparse L D L^T of a symmetric matrix by MUMPS (SYM = 2) on any number of
    * ranks, without pivoting unless a pivot (nearly) vanishes by accident, as
-   * it may in indefinite matrices; then D gets 2x2 blocks. Only the matrix' upper
-   * triangle is read. The factors are kept for any number of right-hand
-   * sides. The number of negative pivots tells whether the matrix is positive
-   * definite.
+   * it may in indefinite matrices; then D gets 2x2 blocks. Only the matrix'
+   * upper triangle is read. The factors are kept for any number of right-hand
+   * sides. The number of negative pivots (negative eigenvalues) tells whether
+   * the matrix is positive definite.
    */
   class DirectSolver
   {
