@@ -5,11 +5,8 @@
 #define nacre_tests_common_h
 
 #include <nacre/discretization/discretization.h>
-
 #include <nacre/forms/shell_operator.h>
-
 #include <nacre/mechanics/linear_elastic_section.h>
-
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
@@ -30,8 +27,8 @@
 namespace Tests
 {
   using namespace Nacre;
-  using Vector3      = Tensor<1, 3>;
-  using VectorField  = std::function<Vector3(const Point<3> &)>;
+  using Vector3        = Tensor<1, 3>;
+  using VectorField    = std::function<Vector3(const Point<3> &)>;
   using TrilinosVector = TrilinosWrappers::MPI::Vector;
 
   inline unsigned int n_failures = 0;
@@ -69,8 +66,20 @@ namespace Tests
     check(name, value > bound, value, ">", bound);
   }
 
-  /** Section, conditions and loads with the parameters of a text. */
-  struct Parameters
+  /** Forgets the parameters of objects that are gone. */
+  struct NoParameters
+  {
+    NoParameters()
+    {
+      ParameterAcceptor::clear();
+    }
+  };
+
+  /**
+   * Section, conditions and loads with the parameters of a text; one object at
+   * a time.
+   */
+  struct Parameters : NoParameters
   {
     explicit Parameters(const std::string &text = "")
     {
@@ -183,7 +192,7 @@ namespace Tests
     TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
     shell_operator.reinit_matrix(constraints, matrix);
     shell_operator.assemble_system(constraints, matrix, load);
-    const unsigned int n = matrix.m();
+    const unsigned int                            n = matrix.m();
     std::pair<FullMatrix<double>, Vector<double>> dense;
     dense.first.reinit(n, n);
     dense.second.reinit(n);

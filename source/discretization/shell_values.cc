@@ -252,6 +252,7 @@ namespace Nacre
       {
         frames_[side].resize(quadrature_.size());
         joint_dofs_[side].resize(discretization.node_dofs().size());
+        local_to_joint_[side].resize(discretization.node_dofs().size());
       }
   }
 
@@ -289,22 +290,19 @@ namespace Nacre
     dof_indices_ = interface_values_.get_interface_dof_indices();
 
     // Invert the map from joint dofs to the dofs of the sides.
-    std::array<std::vector<unsigned int>, 2> joint;
-    for (unsigned int side = 0; side < n_sides_; ++side)
-      joint[side].resize(joint_dofs_[side].size());
     for (unsigned int i = 0; i < dof_indices_.size(); ++i)
       {
         const auto local = interface_values_.interface_dof_to_dof_indices(i);
         for (unsigned int side = 0; side < n_sides_; ++side)
           if (local[side] != numbers::invalid_unsigned_int)
-            joint[side][local[side]] = i;
+            local_to_joint_[side][local[side]] = i;
       }
 
     const auto &node_dofs = discretization_.node_dofs();
     for (unsigned int side = 0; side < n_sides_; ++side)
       {
         for (unsigned int k = 0; k < node_dofs.size(); ++k)
-          joint_dofs_[side][k] = joint[side][node_dofs[k]];
+          joint_dofs_[side][k] = local_to_joint_[side][node_dofs[k]];
         const bool whole = (subfaces[side] == numbers::invalid_unsigned_int);
         shapes_[side]    = &tables_[faces[side]][whole ? 2 : subfaces[side]];
         for (unsigned int q = 0; q < n_points(); ++q)

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/forms/linear_kinematics.h>
+#include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
@@ -48,6 +49,18 @@ namespace Nacre
     std::vector<FaceCopy>                faces;
     /** Faces in use; their storage is kept from cell to cell. */
     unsigned int n_faces = 0;
+
+    CopyData()                      = default;
+    CopyData(const CopyData &other) = default;
+
+    /** mesh_loop() resets by assignment: keep the storage of the faces. */
+    CopyData &
+    operator=(const CopyData &other)
+    {
+      wants_tangent = other.wants_tangent;
+      n_faces       = 0;
+      return *this;
+    }
 
     FaceCopy &
     next_face()
@@ -144,18 +157,18 @@ namespace Nacre
   {
     matrix          = 0.;
     right_hand_side = 0.;
+    MatrixScatter scatter(constraints, matrix, right_hand_side);
     // The residual at zero displacement is the negative load.
     dealii::Vector<double> load;
     loop(nullptr, true, [&](const CopyData &copy) {
-      const auto distribute = [&](const LocalTerms &terms, const auto &dofs) {
+      const auto add = [&](const LocalTerms &terms, const auto &dofs) {
         load = terms.residual;
         load *= -1.;
-        constraints.distribute_local_to_global(
-          terms.tangent, load, dofs, matrix, right_hand_side);
+        scatter.add(terms.tangent, load, dofs);
       };
-      distribute(copy.terms, copy.dofs);
+      add(copy.terms, copy.dofs);
       for (unsigned int f = 0; f < copy.n_faces; ++f)
-        distribute(copy.faces[f].terms, copy.faces[f].dofs);
+        add(copy.faces[f].terms, copy.faces[f].dofs);
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);

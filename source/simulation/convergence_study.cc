@@ -63,6 +63,10 @@ namespace Nacre
     add_parameter("Write VTU",
                   write_vtu_,
                   "Write the fields of every case for ParaView.");
+    add_parameter("Report seconds",
+                  report_seconds_,
+                  "Whether the terminal shows CPU seconds; without them the "
+                  "output is the same from run to run. The .csv has them.");
   }
 
   void
@@ -188,8 +192,10 @@ namespace Nacre
 
         line << "p " << row.degree << ", h " << row.thickness << ", eta "
              << eta.str() << ", " << row.cells << " cells, " << row.dofs
-             << " dofs, " << std::fixed << std::setprecision(2)
-             << row.setup_s + row.assembly_s + row.solve_s << " s";
+             << " dofs";
+        if (report_seconds_)
+          line << ", " << std::fixed << std::setprecision(2)
+               << row.setup_s + row.assembly_s + row.solve_s << " s";
         if (!row.values.empty())
           line << ", " << columns.front().name << " = " << std::scientific
                << std::setprecision(6) << row.values.front();
@@ -208,7 +214,7 @@ namespace Nacre
       }
 
     std::ostringstream text;
-    table.write_text(text);
+    table.write_text(text, report_seconds_);
     log.results() << '\n' << heading_.title << '\n' << text.str()
                   << "\nResults: " << base << ".csv (.txt, .tex"
                   << (write_vtu_ ? ", .pvd)" : ")") << std::endl;

@@ -80,7 +80,6 @@ namespace Nacre
       Graph graph = symmetric_graph(n, rows, columns);
       idx_t options[METIS_NOPTIONS];
       METIS_SetDefaultOptions(options);
-      options[METIS_OPTION_NSEPS] = 5; // separators tried: saves 5 % flops
 
       idx_t              n_vertices = n;
       std::vector<idx_t> order(n), place(n);

@@ -12,9 +12,9 @@
 
 // Boost 1.74 notes its own placeholders otherwise.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
-#include <boost/property_tree/json_parser.hpp>
-
 #include "../tests_common.h"
+
+#include <boost/property_tree/json_parser.hpp>
 
 using namespace Tests;
 using Json = boost::property_tree::ptree;
@@ -104,9 +104,15 @@ private:
 };
 
 /** Node order of the records: corners, mid-sides, centre of [-1, 1]^2. */
-const std::array<Point<2>, 9> record_nodes = {
-  {{-1., -1.}, {1., -1.}, {1., 1.}, {-1., 1.},
-   {0., -1.}, {1., 0.}, {0., 1.}, {-1., 0.}, {0., 0.}}};
+const std::array<Point<2>, 9> record_nodes = {{{-1., -1.},
+                                               {1., -1.},
+                                               {1., 1.},
+                                               {-1., 1.},
+                                               {0., -1.},
+                                               {1., 0.},
+                                               {0., 1.},
+                                               {-1., 0.},
+                                               {0., 0.}}};
 
 unsigned int
 record_node(const Point<2> &unit)
@@ -120,7 +126,7 @@ record_node(const Point<2> &unit)
 
 /** A mesh of the record's nodes with the 9 nodes of each of its cells. */
 std::unique_ptr<Discretization>
-make_discretization(const std::vector<double>                     &nodes,
+make_discretization(const std::vector<double>                    &nodes,
                     const std::vector<std::vector<unsigned int>> &cells)
 {
   const auto node = [&](const unsigned int k) {
@@ -213,8 +219,7 @@ field_vector(const std::string               &name,
   for (unsigned int k = 0; k < dofs.size() / 3; ++k)
     {
       const auto value =
-        field_value(name,
-                    {nodes[3 * k], nodes[3 * k + 1], nodes[3 * k + 2]});
+        field_value(name, {nodes[3 * k], nodes[3 * k + 1], nodes[3 * k + 2]});
       for (unsigned int c = 0; c < 3; ++c)
         u[dofs[3 * k + c]] = value[c];
     }
@@ -242,6 +247,75 @@ parameters_of(const Json &record)
 
 /** Our reference cell is half as long: derivatives are twice as large. */
 void
+test_frame(const std::string      &name,
+           const Json             &sample,
+           const SurfaceFrame<>   &frame,
+           const Point<3>         &point,
+           const SectionStiffness &stiffness)
+{
+  const auto check_vector =
+    [&](const std::string &key, const Vector3 &v, const double factor) {
+      compare(name + key,
+              {factor * v[0], factor * v[1], factor * v[2]},
+              numbers_of(sample, key));
+    };
+  check_vector("x", Vector3(point), 1.);
+  check_vector("phi_1", frame.a_cov[0], 0.5);
+  check_vector("phi_2", frame.a_cov[1], 0.5);
+  check_vector("phi_11", frame.a_cov_derivatives[0], 0.25);
+  check_vector("phi_22", frame.a_cov_derivatives[1], 0.25);
+  check_vector("phi_12", frame.a_cov_derivatives[2], 0.25);
+  check_vector("phi_up_1", frame.a_con[0], 2.);
+  check_vector("phi_up_2", frame.a_con[1], 2.);
+  check_vector("t0", frame.t0, 1.);
+  compare(name + "j0", {0.25 * frame.j0}, numbers_of(sample, "j0"));
+
+  std::vector<double> H_n, H_m;
+  for (unsigned int v = 0; v < 3; ++v)
+    for (unsigned int w = 0; w < 3; ++w)
+      {
+        H_n.push_back(16. * stiffness.membrane[v][w]);
+        H_m.push_back(16. * stiffness.bending[v][w]);
+      }
+  compare(name + "Hn_voigt", H_n, numbers_of(sample, "Hn_voigt"));
+  compare(name + "Hm_voigt", H_m, numbers_of(sample, "Hm_voigt"));
+}
+
+/** Strains and the change of the normal at the point @p q. */
+void
+test_rows(const std::string               &name,
+          const Json                      &sample,
+          const Discretization            &discretization,
+          const ShellCellValues           &values,
+          const unsigned int               q,
+          const std::vector<unsigned int> &dofs)
+{
+  std::vector<double> B_n, B_m, Dt(81);
+  for (unsigned int v = 0; v < 3; ++v)
+    for (const unsigned int i : dofs)
+      {
+        B_n.push_back(0.25 * values.membrane_rows()(3 * q + v, i));
+        B_m.push_back(0.25 * values.bending_rows()(3 * q + v, i));
+      }
+  for (unsigned int a = 0; a < 9; ++a)
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        Vector3 e;
+        e[c]           = 1.;
+        const auto &dN = values.shapes().gradient(q, a);
+        const auto  row =
+          ShellStrain::normal_change(values.frame(q), {{dN[0] * e, dN[1] * e}});
+        const auto k =
+          record_node(discretization.scalar_fe().unit_support_point(a));
+        for (unsigned int r = 0; r < 3; ++r)
+          Dt[27 * r + 3 * k + c] = row[r];
+      }
+  compare(name + "Bn", B_n, numbers_of(sample, "Bn"));
+  compare(name + "Bm", B_m, numbers_of(sample, "Bm"));
+  compare(name + "Dt", Dt, numbers_of(sample, "Dt"));
+}
+
+void
 test_samples(const Json                      &record,
              const Discretization            &discretization,
              const SectionLaw                &section,
@@ -260,66 +334,18 @@ test_samples(const Json                      &record,
   values.reinit(discretization.triangulation().begin_active());
 
   unsigned int q = 0;
-  for (const auto &entry : record.get_child("samples"))
+  for (const auto &sample : record.get_child("samples"))
     {
-      const auto &sample = entry.second;
-      const auto  name   = record.get<std::string>("name") + ", sample " +
+      const auto name = record.get<std::string>("name") + ", sample " +
                         std::to_string(q) + ": ";
-      const auto &frame = values.frame(q);
-      const auto  check_vector =
-        [&](const std::string &key, const Vector3 &v, const double factor) {
-          compare(name + key,
-                  {factor * v[0], factor * v[1], factor * v[2]},
-                  numbers_of(sample, key));
-        };
-      check_vector("x", Vector3(values.point(q)), 1.);
-      check_vector("phi_1", frame.a_cov[0], 0.5);
-      check_vector("phi_2", frame.a_cov[1], 0.5);
-      check_vector("phi_11", frame.a_cov_derivatives[0], 0.25);
-      check_vector("phi_22", frame.a_cov_derivatives[1], 0.25);
-      check_vector("phi_12", frame.a_cov_derivatives[2], 0.25);
-      check_vector("phi_up_1", frame.a_con[0], 2.);
-      check_vector("phi_up_2", frame.a_con[1], 2.);
-      check_vector("t0", frame.t0, 1.);
-      compare(name + "j0", {0.25 * frame.j0}, numbers_of(sample, "j0"));
-
-      const auto          stiffness = section.stiffness(frame, values.point(q));
-      std::vector<double> H_n, H_m;
-      for (unsigned int v = 0; v < 3; ++v)
-        for (unsigned int w = 0; w < 3; ++w)
-          {
-            H_n.push_back(16. * stiffness.membrane[v][w]);
-            H_m.push_back(16. * stiffness.bending[v][w]);
-          }
-      compare(name + "Hn_voigt", H_n, numbers_of(sample, "Hn_voigt"));
-      compare(name + "Hm_voigt", H_m, numbers_of(sample, "Hm_voigt"));
+      test_frame(name,
+                 sample.second,
+                 values.frame(q),
+                 values.point(q),
+                 section.stiffness(values.frame(q), values.point(q)));
+      if (sample.second.count("Bn") == 1)
+        test_rows(name, sample.second, discretization, values, q, dofs);
       ++q;
-      if (sample.count("Bn") == 0)
-        continue;
-
-      std::vector<double> B_n, B_m, Dt(81);
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const unsigned int i : dofs)
-          {
-            B_n.push_back(0.25 * values.membrane_rows()(3 * (q - 1) + v, i));
-            B_m.push_back(0.25 * values.bending_rows()(3 * (q - 1) + v, i));
-          }
-      for (unsigned int a = 0; a < 9; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          {
-            Vector3 e;
-            e[c]            = 1.;
-            const auto &dN  = values.shapes().gradient(q - 1, a);
-            const auto  row = ShellStrain::normal_change(
-              frame, {{dN[0] * e, dN[1] * e}});
-            const auto k =
-              record_node(discretization.scalar_fe().unit_support_point(a));
-            for (unsigned int r = 0; r < 3; ++r)
-              Dt[27 * r + 3 * k + c] = row[r];
-          }
-      compare(name + "Bn", B_n, numbers_of(sample, "Bn"));
-      compare(name + "Bm", B_m, numbers_of(sample, "Bm"));
-      compare(name + "Dt", Dt, numbers_of(sample, "Dt"));
     }
 }
 
@@ -348,10 +374,11 @@ test_space_hessian(const std::string    &name,
             const auto &a_2   = frame.a_cov[v == 0 ? 0 : 1];
             const auto  rho   = -(v == 2 ? 2. : 1.) * frame.t0[c] *
                              (a_1 * (fe_values.shape_hessian(a, q) * a_2));
-            size  = std::max(size, std::abs(rho));
-            error = std::max(error,
-                             std::abs(rho - values.bending_rows()(
-                                              3 * q + v, values.dof(a, c))));
+            size = std::max(size, std::abs(rho));
+            error =
+              std::max(error,
+                       std::abs(rho - values.bending_rows()(3 * q + v,
+                                                            values.dof(a, c))));
           }
   check_below(name + ": bending strain is -t0 . hess u", error / size, 1e-11);
 }
@@ -388,7 +415,7 @@ test_element(const Json &record)
       for (const auto &field : record.get_child("fields"))
         {
           const auto field_name = field.second.get<std::string>("name");
-          const auto where = name + ", field " + field_name + ": ";
+          const auto where      = name + ", field " + field_name + ": ";
           terms.reinit(27);
           kinematics.add_cell_terms(cell,
                                     field_vector(field_name, nodes, dofs),
@@ -410,118 +437,160 @@ test_element(const Json &record)
     }
 }
 
-void
-test_edge(const Json &record)
+/** The mesh of an edge's record and the edge between K^- and K^+. */
+struct RecordEdge
 {
-  const auto name       = record.get<std::string>("name");
-  const auto parameters = parameters_of(record);
-  const auto nodes      = numbers_of(record, "nodes");
+  explicit RecordEdge(const Json &record)
+    : cells(cells_of(record))
+    , discretization(make_discretization(numbers_of(record, "nodes"), cells))
+    , minus(cell(record.get<int>("K_minus")))
+    , plus(cell(record.get<int>("K_plus")))
+    , edge(*discretization)
+  {
+    unsigned int face = 0;
+    while (minus->at_boundary(face))
+      ++face;
+    edge.reinit(minus,
+                face,
+                numbers::invalid_unsigned_int,
+                plus,
+                minus->neighbor_of_neighbor(face),
+                numbers::invalid_unsigned_int);
 
-  std::vector<std::vector<unsigned int>> cells;
-  for (const auto &cell : record.get_child("conn"))
-    {
-      cells.emplace_back();
-      for (const double k : numbers_of(cell.second))
-        cells.back().push_back(static_cast<unsigned int>(k));
-    }
-  const auto discretization = make_discretization(nodes, cells);
+    const auto &fe = discretization->scalar_fe();
+    dofs.resize(edge.n_dofs());
+    for (unsigned int side = 0; side < 2; ++side)
+      for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+        for (unsigned int c = 0; c < 3; ++c)
+          dofs[3 * cells[(side == 0 ? minus : plus)->index()]
+                        [record_node(fe.unit_support_point(a))] +
+               c] = edge.dof(side, a, c);
+  }
 
-  // K^- and K^+ as in the record.
-  const auto cell_of = [&](const std::string &key) {
+  static std::vector<std::vector<unsigned int>>
+  cells_of(const Json &record)
+  {
+    std::vector<std::vector<unsigned int>> cells;
+    for (const auto &cell : record.get_child("conn"))
+      {
+        cells.emplace_back();
+        for (const double k : numbers_of(cell.second))
+          cells.back().push_back(static_cast<unsigned int>(k));
+      }
+    return cells;
+  }
+
+  ShellEdgeValues::cell_iterator
+  cell(const int index) const
+  {
     for (const auto &cell :
          discretization->dof_handler().active_cell_iterators())
-      if (cell->index() == record.get<int>(key))
+      if (cell->index() == index)
         return cell;
     AssertThrow(false, ExcInternalError());
     return discretization->dof_handler().begin_active();
-  };
-  const auto   minus = cell_of("K_minus");
-  const auto   plus  = cell_of("K_plus");
-  unsigned int face  = 0;
-  while (minus->at_boundary(face))
-    ++face;
-  ShellEdgeValues edge(*discretization);
-  edge.reinit(minus,
-              face,
-              numbers::invalid_unsigned_int,
-              plus,
-              minus->neighbor_of_neighbor(face),
-              numbers::invalid_unsigned_int);
+  }
 
-  // The record's dofs among those of the edge.
-  std::vector<unsigned int> dofs(edge.n_dofs(), numbers::invalid_unsigned_int);
-  for (unsigned int side = 0; side < 2; ++side)
-    for (unsigned int a = 0; a < 9; ++a)
-      for (unsigned int c = 0; c < 3; ++c)
-        dofs[3 * cells[(side == 0 ? minus : plus)->index()][record_node(
-                   discretization->scalar_fe().unit_support_point(a))] +
-             c] = edge.dof(side, a, c);
+  const std::vector<std::vector<unsigned int>> cells;
+  const std::unique_ptr<Discretization>        discretization;
+  const ShellEdgeValues::cell_iterator         minus;
+  const ShellEdgeValues::cell_iterator         plus;
+  ShellEdgeValues                              edge;
+  /** The record's dofs among those of the edge. */
+  std::vector<unsigned int> dofs;
+};
 
-  double tangents = 0., conormals = 0., orientation = 0.;
+/** The records' surface is smooth: both sides have the same frame. */
+void
+test_edge_frames(const std::string &name, const ShellEdgeValues &edge)
+{
+  double normals = 0., conormals = 0., orientation = 0.;
   for (unsigned int q = 0; q < edge.n_points(); ++q)
     {
-      tangents = std::max(tangents,
-                          (edge.frame(0, q).t0 - edge.frame(1, q).t0).norm());
-      conormals = std::max(conormals,
-                           (edge.conormal(0, q) - edge.conormal(1, q)).norm());
-      orientation =
-        std::max(orientation, std::abs(edge.sigma(1, q) - 1.));
+      normals =
+        std::max(normals, (edge.frame(0, q).t0 - edge.frame(1, q).t0).norm());
+      conormals =
+        std::max(conormals, (edge.conormal(0, q) - edge.conormal(1, q)).norm());
+      orientation = std::max(orientation, std::abs(edge.sigma(1, q) - 1.));
     }
-  check_below(name + ": normals agree", tangents, 1e-13);
+  check_below(name + ": normals agree", normals, 1e-13);
   check_below(name + ": conormals agree", conormals, 1e-13);
   check_below(name + ": sigma", orientation, 1e-13);
+}
 
-  LinearKinematics kinematics(*discretization,
-                              parameters.section,
+/** The terms with the penalty and those without. */
+std::pair<LocalTerms, LocalTerms>
+penalty_and_consistency(const RecordEdge     &mesh,
+                        const SectionLaw     &section,
+                        const double          eta_e,
+                        const Vector<double> &u)
+{
+  LinearKinematics                  kinematics(*mesh.discretization,
+                              section,
                               MembraneStrain::full);
-  const double     eta_e = record.get<double>("eta_e");
-  LocalTerms       whole, consistency;
-  whole.reinit(edge.n_dofs());
-  consistency.reinit(edge.n_dofs());
-  kinematics.add_edge_terms(edge, eta_e, Vector<double>(), whole);
-  kinematics.add_edge_terms(edge, 0., Vector<double>(), consistency);
-  compare(name + ": K_consistency",
-          upper_triangle(consistency.tangent, dofs),
-          numbers_of(record, "K_consistency_upper"));
-  whole.tangent.add(-1., consistency.tangent);
+  std::pair<LocalTerms, LocalTerms> terms;
+  terms.first.reinit(mesh.edge.n_dofs());
+  terms.second.reinit(mesh.edge.n_dofs());
+  kinematics.add_edge_terms(mesh.edge, eta_e, u, terms.first);
+  kinematics.add_edge_terms(mesh.edge, 0., u, terms.second);
+  terms.first.tangent.add(-1., terms.second.tangent);
+  terms.first.energies.edge -= terms.second.energies.edge;
+  return terms;
+}
+
+void
+test_edge(const Json &record)
+{
+  const auto       name       = record.get<std::string>("name");
+  const auto       parameters = parameters_of(record);
+  const auto       nodes      = numbers_of(record, "nodes");
+  const double     eta_e      = record.get<double>("eta_e");
+  const RecordEdge mesh(record);
+  test_edge_frames(name, mesh.edge);
+
+  const auto matrices =
+    penalty_and_consistency(mesh, parameters.section, eta_e, Vector<double>());
   compare(name + ": K_penalty",
-          upper_triangle(whole.tangent, dofs),
+          upper_triangle(matrices.first.tangent, mesh.dofs),
           numbers_of(record, "K_penalty_upper"));
+  compare(name + ": K_consistency",
+          upper_triangle(matrices.second.tangent, mesh.dofs),
+          numbers_of(record, "K_consistency_upper"));
 
   for (const auto &field : record.get_child("fields"))
     {
       const auto where = name + ", field " + field.first + ": ";
-      const auto u     = field_vector(field.first, nodes, dofs);
       const auto hinge = field.second.get_child("hinge");
-      whole.reinit(edge.n_dofs());
-      consistency.reinit(edge.n_dofs());
-      kinematics.add_edge_terms(edge, eta_e, u, whole);
-      kinematics.add_edge_terms(edge, 0., u, consistency);
-      const double penalty = whole.energies.edge - consistency.energies.edge;
+      const auto terms =
+        penalty_and_consistency(mesh,
+                                parameters.section,
+                                eta_e,
+                                field_vector(field.first, nodes, mesh.dofs));
+      const double penalty     = terms.first.energies.edge;
+      const double consistency = terms.second.energies.edge;
       if (field.first == "trig")
         {
           compare(where + "U_penalty",
                   {penalty},
                   {hinge.get<double>("U_penalty")});
           compare(where + "U_consistency",
-                  {consistency.energies.edge},
+                  {consistency},
                   {hinge.get<double>("U_consistency")});
         }
       else
         {
           check_below(where + "U_penalty", std::abs(penalty), 1e-14);
-          check_below(where + "U_consistency",
-                      std::abs(consistency.energies.edge),
-                      1e-14);
+          check_below(where + "U_consistency", std::abs(consistency), 1e-14);
         }
     }
 
-  const EdgePenalty penalty(*discretization,
+  const EdgePenalty penalty(*mesh.discretization,
                             parameters.section,
                             record.get<double>("eta"));
-  compare(name + ": eta_e", {penalty.interior(minus, plus)}, {eta_e});
+  const double      found = penalty.interior(mesh.minus, mesh.plus);
+  compare(name + ": eta_e", {found}, {eta_e});
   compare(name + ": h_e",
-          {record.get<double>("eta") / penalty.interior(plus, minus)},
+          {record.get<double>("eta") / found},
           {record.get<double>("h_e")});
 }
 

@@ -5,11 +5,9 @@
 // orientation of a neighbour, a symmetry plane. Residual and energies belong
 // to the matrix. The bound of the penalty makes the matrix positive.
 
-#include <nacre/forms/linear_kinematics.h>
-
-#include <nacre/problem/midsurface.h>
-
 #include "../tests_common.h"
+#include <nacre/forms/linear_kinematics.h>
+#include <nacre/problem/midsurface.h>
 
 using namespace Tests;
 
@@ -43,9 +41,8 @@ creased_mesh()
       mesh.vertices.emplace_back(0., y, 0.);
       mesh.vertices.emplace_back(std::cos(1.2), 1.1 * y, std::sin(1.2));
     }
-  mesh.cells = {
-    {{0, 1, 3, 4}}, {{1, 2, 4, 5}}, {{3, 4, 6, 7}}, {{4, 5, 7, 8}}};
-  mesh.map = bend;
+  mesh.cells = {{{0, 1, 3, 4}}, {{1, 2, 4, 5}}, {{3, 4, 6, 7}}, {{4, 5, 7, 8}}};
+  mesh.map   = bend;
   return mesh;
 }
 
@@ -55,11 +52,11 @@ edge_matrix(const Discretization &discretization,
             const SectionLaw     &section,
             const bool            swapped)
 {
-  const auto        none = numbers::invalid_unsigned_int;
-  const EdgePenalty penalty(discretization, section, {});
-  LinearKinematics  kinematics(discretization, section, MembraneStrain::tied);
-  ShellEdgeValues   edge(discretization);
-  LocalTerms        terms;
+  const auto         none = numbers::invalid_unsigned_int;
+  const EdgePenalty  penalty(discretization, section, {});
+  LinearKinematics   kinematics(discretization, section, MembraneStrain::tied);
+  ShellEdgeValues    edge(discretization);
+  LocalTerms         terms;
   const unsigned int n = discretization.dof_handler().n_dofs();
   FullMatrix<double> matrix(n, n);
   for (const auto &cell : discretization.dof_handler().active_cell_iterators())
@@ -114,7 +111,7 @@ test_side_swap(const Parameters &parameters)
 Energies
 energies_of(const Mesh &mesh, const Parameters &parameters)
 {
-  const auto discretization = make_discretization(mesh, 3);
+  const auto          discretization = make_discretization(mesh, 3);
   const ShellOperator shell_operator(*discretization,
                                      parameters.section,
                                      parameters.conditions,
@@ -146,8 +143,7 @@ test_orientation(const Parameters &parameters)
   mesh.cells[1]    = {{1, 4, 2, 5}};
   mesh.cells[3]    = {{4, 7, 5, 8}};
   compare("neighbours reversed", energies_of(mesh, parameters), exact);
-  mesh.cells = {
-    {{4, 5, 7, 8}}, {{1, 2, 4, 5}}, {{3, 4, 6, 7}}, {{0, 1, 3, 4}}};
+  mesh.cells = {{{4, 5, 7, 8}}, {{1, 2, 4, 5}}, {{3, 4, 6, 7}}, {{0, 1, 3, 4}}};
   compare("cells in another order", energies_of(mesh, parameters), exact);
 }
 
@@ -203,12 +199,16 @@ smallest_eigenvalue(const Discretization        &discretization,
                     const Loads                 &loads,
                     const std::optional<double> &eta)
 {
-  const ShellOperator shell_operator(
-    discretization, section, conditions, loads, MembraneStrain::tied, eta);
-  const auto &constraints = discretization.hanging_node_constraints();
-  const auto  values      = eigenvalues(
-    dense_system(discretization, shell_operator, constraints).first,
-    constraints);
+  const ShellOperator shell_operator(discretization,
+                                     section,
+                                     conditions,
+                                     loads,
+                                     MembraneStrain::tied,
+                                     eta);
+  const auto         &constraints = discretization.hanging_node_constraints();
+  const auto          values =
+    eigenvalues(dense_system(discretization, shell_operator, constraints).first,
+                constraints);
   return values[0] / values[values.size() - 1];
 }
 
@@ -222,7 +222,7 @@ test_coercivity(const Parameters &parameters)
         if (hanging)
           mesh.refined = {3};
         const auto discretization = make_discretization(mesh, degree);
-        const auto smallest = [&](const std::optional<double> &eta) {
+        const auto smallest       = [&](const std::optional<double> &eta) {
           return smallest_eigenvalue(*discretization,
                                      parameters.section,
                                      parameters.conditions,
@@ -363,14 +363,19 @@ test_clamped_coercivity()
     " set Edges = u=0, u=1, v=0, v=1: rotation = 0\nend\n");
   ParameterAcceptor::parse_all_parameters();
   panel.conditions->prepare(*panel.midsurface, {});
-  const Discretization discretization(
-    *panel.midsurface, MPI_COMM_WORLD, 2, 0, 1);
-  const auto smallest = [&](const std::optional<double> &eta) {
-    return smallest_eigenvalue(
-      discretization, *panel.section, *panel.conditions, *panel.loads, eta);
+  const Discretization discretization(*panel.midsurface,
+                                      MPI_COMM_WORLD,
+                                      2,
+                                      0,
+                                      1);
+  const auto           smallest = [&](const std::optional<double> &eta) {
+    return smallest_eigenvalue(discretization,
+                               *panel.section,
+                               *panel.conditions,
+                               *panel.loads,
+                               eta);
   };
-  const double bound =
-    EdgePenalty(discretization, *panel.section, {}).bound();
+  const double bound = EdgePenalty(discretization, *panel.section, {}).bound();
   check_above("rotations fixed: smallest eigenvalue at the bound",
               smallest(bound),
               -1e-13);

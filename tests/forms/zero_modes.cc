@@ -60,21 +60,21 @@ test_mesh(const std::string    &name,
           const unsigned int    degree,
           const MembraneStrain &membrane_strain)
 {
-  const auto discretization = make_discretization(mesh, degree);
+  const auto          discretization = make_discretization(mesh, degree);
   const ShellOperator shell_operator(*discretization,
                                      parameters.section,
                                      parameters.conditions,
                                      parameters.loads,
                                      membrane_strain,
                                      {});
-  const auto where =
+  const auto          where =
     name + ", p = " + std::to_string(degree) + ", " +
     membrane_strain_names()[static_cast<unsigned int>(membrane_strain)];
 
   const auto &constraints = discretization->hanging_node_constraints();
   const auto  system =
     dense_system(*discretization, shell_operator, constraints);
-  const auto values = eigenvalues(system.first, constraints);
+  const auto   values  = eigenvalues(system.first, constraints);
   const double largest = values[values.size() - 1];
   double       six     = 0.;
   for (unsigned int k = 0; k < 6; ++k)
@@ -88,9 +88,8 @@ test_mesh(const std::string    &name,
   for (unsigned int k = 0; k < 6; ++k)
     {
       const auto parts = shell_operator.energies(
-        interpolate(*discretization, [&](const auto &x) {
-          return rigid_motion(k, x);
-        }));
+        interpolate(*discretization,
+                    [&](const auto &x) { return rigid_motion(k, x); }));
       energy = std::max({energy,
                          std::abs(parts.membrane) / scale,
                          std::abs(parts.bending) / scale,
@@ -103,7 +102,7 @@ int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const Parameters parameters(section_text(100., 0.3, 0.1));
+  const Parameters                 parameters(section_text(100., 0.3, 0.1));
   for (const unsigned int degree : {2, 3, 4})
     for (const auto membrane_strain :
          {MembraneStrain::tied, MembraneStrain::full, MembraneStrain::reduced})
@@ -116,13 +115,19 @@ main(int argc, char *argv[])
         if (degree == 4 && membrane_strain != MembraneStrain::tied)
           continue;
         mesh.refined = {1};
-        test_mesh(
-          "creased, hanging nodes", parameters, mesh, degree, membrane_strain);
+        test_mesh("creased, hanging nodes",
+                  parameters,
+                  mesh,
+                  degree,
+                  membrane_strain);
         mesh         = folded_mesh(0.);
         mesh.map     = bend;
         mesh.refined = {0};
-        test_mesh(
-          "curved, hanging nodes", parameters, mesh, degree, membrane_strain);
+        test_mesh("curved, hanging nodes",
+                  parameters,
+                  mesh,
+                  degree,
+                  membrane_strain);
       }
   return n_failures > 0;
 }

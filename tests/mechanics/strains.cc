@@ -5,12 +5,11 @@
 // automatic differentiation of the deformed geometry; the isotropic stiffness
 // against the fourth-order tensor.
 
+#include "../tests_common.h"
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/mechanics/shell_strain.h>
 
 #include <deal.II/differentiation/ad.h>
-
-#include "../tests_common.h"
 
 using namespace Tests;
 using Dual = Sacado::Fad::DFad<double>;
@@ -31,8 +30,9 @@ vector(const double x, const double y, const double z)
 SurfaceFrame<>
 make_frame(const Derivatives &d)
 {
-  return make_surface_frame(
-    d[0], d[1], std::array<Vector3, 3>{{d[2], d[3], d[4]}});
+  return make_surface_frame(d[0],
+                            d[1],
+                            std::array<Vector3, 3>{{d[2], d[3], d[4]}});
 }
 
 /** Cylinder R (cos s, sin s), z with s = xi1 / R + 0.3 xi2, z = xi2. */
@@ -68,7 +68,7 @@ test_sphere()
 {
   const double R = 1.5, l = 0.4, b = 0.6;
   const double cl = std::cos(l), sl = std::sin(l), cb = std::cos(b),
-               sb   = std::sin(b);
+               sb  = std::sin(b);
   const auto frame = make_frame({{R * cb * vector(-sl, cl, 0),
                                   R * vector(-sb * cl, -sb * sl, cb),
                                   -R * cb * vector(cl, sl, 0),
@@ -99,11 +99,11 @@ test_sphere()
 }
 
 /** A skew, curved point of no particular symmetry and a displacement. */
-const Derivatives geometry = {{vector(1.1, 0.2, -0.3),
-                               vector(0.5, 0.8, 0.4),
-                               vector(0.3, -0.7, 0.9),
-                               vector(-0.2, 0.6, 1.3),
-                               vector(0.4, 0.5, -0.8)}};
+const Derivatives geometry     = {{vector(1.1, 0.2, -0.3),
+                                   vector(0.5, 0.8, 0.4),
+                                   vector(0.3, -0.7, 0.9),
+                                   vector(-0.2, 0.6, 1.3),
+                                   vector(0.4, 0.5, -0.8)}};
 const Derivatives displacement = {{vector(0.3, -0.4, 0.7),
                                    vector(-0.6, 0.2, 0.5),
                                    vector(0.9, 0.1, -0.4),
@@ -119,15 +119,15 @@ test_linearisations()
   for (unsigned int k = 0; k < 5; ++k)
     for (unsigned int c = 0; c < 3; ++c)
       phi[k][c] = geometry[k][c] + factor * displacement[k][c];
-  const auto deformed = make_surface_frame(
-    phi[0],
-    phi[1],
-    std::array<Tensor<1, 3, Dual>, 3>{{phi[2], phi[3], phi[4]}});
+  const auto deformed = make_surface_frame(phi[0],
+                                           phi[1],
+                                           std::array<Tensor<1, 3, Dual>, 3>{
+                                             {phi[2], phi[3], phi[4]}});
 
-  const auto frame = make_frame(geometry);
-  const std::array<Vector3, 2> du  = {{displacement[0], displacement[1]}};
-  const std::array<Vector3, 3> ddu = {
-    {displacement[2], displacement[3], displacement[4]}};
+  const auto                   frame = make_frame(geometry);
+  const std::array<Vector3, 2> du    = {{displacement[0], displacement[1]}};
+  const std::array<Vector3, 3> ddu   = {
+      {displacement[2], displacement[3], displacement[4]}};
   const auto derivative = [](const Dual &x) { return x.dx(0); };
 
   // Green strain's linearisation, (3).
@@ -142,16 +142,18 @@ test_linearisations()
   const auto rho   = ShellStrain::bending(frame, du, ddu);
   double     error = 0.;
   for (unsigned int v = 0; v < 3; ++v)
-    error += std::abs(
-      rho[v] - (v == 2 ? 2. : 1.) * derivative(-(phi[2 + v] * deformed.t0)));
+    error += std::abs(rho[v] - (v == 2 ? 2. : 1.) *
+                                 derivative(-(phi[2 + v] * deformed.t0)));
   check_below("bending strain against differentiation", error, 1e-13);
 
   // The same of a shape function times a direction.
   const std::array<double, 2> dN  = {{0.3, -0.8}};
   const std::array<double, 3> ddN = {{0.7, -0.2, 1.1}};
   const auto                  e   = vector(0.2, -0.5, 0.9);
-  const auto whole = ShellStrain::bending(
-    frame, {{dN[0] * e, dN[1] * e}}, {{ddN[0] * e, ddN[1] * e, ddN[2] * e}});
+  const auto                  whole =
+    ShellStrain::bending(frame,
+                         {{dN[0] * e, dN[1] * e}},
+                         {{ddN[0] * e, ddN[1] * e, ddN[2] * e}});
   const auto single = ShellStrain::bending_of_shape_function(frame, dN, ddN);
   check_below("bending strain of a shape function",
               (whole - (frame.t0 * e) * single).norm(),
@@ -170,8 +172,8 @@ test_stiffness()
 {
   const double     E = 210., nu = 0.27, h = 0.2;
   const Parameters parameters(section_text(E, nu, h));
-  const auto       frame = make_frame(geometry);
-  const auto stiffness   = parameters.section.stiffness(frame, Point<3>());
+  const auto       frame     = make_frame(geometry);
+  const auto       stiffness = parameters.section.stiffness(frame, Point<3>());
 
   const std::array<std::array<double, 2>, 2> G = {
     {{{frame.metric_con[0], frame.metric_con[2]}},

@@ -267,6 +267,7 @@ namespace Nacre
     std::array<const ShapeTable *, 2>           shapes_;
     std::array<std::vector<SurfaceFrame<>>, 2>  frames_;
     std::array<std::vector<unsigned int>, 2>    joint_dofs_;
+    std::array<std::vector<unsigned int>, 2>    local_to_joint_;
     std::vector<types::global_dof_index>        dof_indices_;
   };
 } // namespace Nacre

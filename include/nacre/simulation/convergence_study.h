@@ -70,7 +70,8 @@ namespace Nacre
     std::vector<std::string>  penalties_     = {"default"};
     std::vector<std::string>  thicknesses_;
     std::vector<unsigned int> refinements_ = {0};
-    bool                      write_vtu_   = true;
+    bool                      write_vtu_      = true;
+    bool                      report_seconds_ = true;
 
     ShellProblem         problem_;
     QuantitiesOfInterest quantities_;

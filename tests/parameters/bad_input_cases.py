@@ -1,0 +1,457 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Wrong input and what Nacre must say about it; bad_input.py runs them.
+
+A case is named and has
+  expect    texts that the message must hold, white space normalised;
+            re.compile(...) for a pattern
+  settings  "Section/Parameter": value, appended to BASE
+  change    (old, new) text of BASE
+  prm       a whole file instead of BASE, or None for no file
+  args      command line behind the file; with {prm} it is the whole one
+  folder    files to make first: name -> text
+  code      the exit code
+"""
+import re
+
+BASE = """\
+set Title     = Plate
+set Constants = a = 2, q = 0.01
+
+subsection Study
+  set Degrees     = 2
+  set Refinements = 0
+end
+subsection Mid-surface
+  set Surface      = plate
+  set Subdivisions = 2
+  subsection plate
+    set Size = a, 1
+  end
+end
+subsection Section
+  set Young's modulus = 1000
+  set Poisson's ratio = 0.3
+  set Thickness       = 0.05
+end
+subsection Boundary conditions
+  set Edges = u=0: clamped; u=1: fixed
+end
+subsection Loads
+  set Force per area = 0, 0, -q
+end
+subsection Quantities
+  set Quantities = w = displacement z at (1, 0.5, 0); U = energy
+end
+"""
+
+CASES = {}
+
+
+def case(name, expect, settings=None, change=None, prm=BASE, args=(),
+         folder=None, code=1):
+    assert name not in CASES, name
+    CASES[name] = dict(expect=expect, settings=settings or {}, change=change,
+                       prm=prm, args=list(args), folder=folder or {},
+                       code=code)
+
+
+# --- Section ---------------------------------------------------------------
+for name, value in (("negative", "-0.1"), ("zero", "0")):
+    case("thickness_" + name,
+         ["Section/Thickness", value, "must be positive"],
+         {"Section/Thickness": value})
+case("thickness_negative_somewhere",
+     ["Section/Thickness", "at the point (", "must be positive"],
+     {"Section/Thickness": "1.9 - x"})
+case("thickness_expression_not_finite",
+     ["Section/Thickness", "0.1/(x-x)", "must be finite"],
+     {"Section/Thickness": "0.1/(x-x)"})
+case("thickness_empty", ["Section/Thickness", "is empty"],
+     {"Section/Thickness": ""})
+case("youngs_modulus_zero",
+     ["Section/Young's modulus", "0", "must be positive"],
+     {"Section/Young's modulus": "0"})
+case("youngs_modulus_negative_somewhere",
+     ["Section/Young's modulus", "at the point (", "must be positive"],
+     {"Section/Young's modulus": "1 - x"})
+for name, value in (("half", "0.5"), ("too_large", "0.7"),
+                    ("minus_one", "-1")):
+    case("poissons_ratio_" + name,
+         ["Section/Poisson's ratio", value, "larger than -1",
+          "smaller than 0.5"],
+         {"Section/Poisson's ratio": value})
+case("density_negative", ["Section/Density", "-1", "must not be negative"],
+     {"Section/Density": "-1", "Loads/Gravity": "0, 0, -9.81"})
+
+# --- Study -----------------------------------------------------------------
+for name, value in (("zero", "0"), ("negative", "-5")):
+    case("eta_" + name, ["Study/Penalties", value, "not positive"],
+         {"Study/Penalties": value})
+case("eta_too_small",
+     ["is below the bound", "not positive definite", "negative pivots",
+      "Study/Penalties: eta = 1e-06 is too small"],
+     {"Study/Penalties": "1e-6", "Study/Degrees": "3"})
+case("eta_unknown_word", ["Study/Penalties", "'defualt'", "unknown name"],
+     {"Study/Penalties": "defualt"})
+case("eta_none", ["Study/Penalties", "'default' or a number"],
+     {"Study/Penalties": ""})
+case("thicknesses_negative", ["Study/Thicknesses", "'-0.1'", "not positive"],
+     {"Study/Thicknesses": "0.1, -0.1"})
+case("degree_1", ["Degrees", "'1'", "2", "5"], {"Study/Degrees": "1"})
+case("degree_6", ["Degrees", "'2, 6'", "2", "5"], {"Study/Degrees": "2, 6"})
+case("degree_none", ["Degrees", "''", "not allowed"], {"Study/Degrees": ""})
+case("degree_not_a_number", ["Degrees", "'two'", "not allowed"],
+     {"Study/Degrees": "two"})
+case("refinement_negative", ["Refinements", "'-1'", "not allowed"],
+     {"Study/Refinements": "-1"})
+case("refinements_none", ["Refinements", "''", "not allowed"],
+     {"Study/Refinements": ""})
+case("name_is_a_path", ["Study/Name", "'a/b'", "Output folder"],
+     {"Study/Name": "a/b"})
+case("not_a_bool", ["Write VTU", "'maybe'", "true", "false"],
+     {"Study/Write VTU": "maybe"})
+case("output_folder_is_a_file",
+     ["output folder", "'results'", "Study/Output folder"],
+     {"Study/Output folder": "results"}, folder={"results": "a file\n"})
+case("output_folder_below_a_file",
+     ["output folder", "'results/a'", "Study/Output folder"],
+     {"Study/Output folder": "results/a"}, folder={"results": "a file\n"})
+case("output_file_is_a_folder",
+     ["results/case.used.prm", "can't be written"],
+     {"Study/Output folder": "results"},
+     folder={"results/case.used.prm/x": ""})
+case("result_file_is_a_folder",
+     ["results/case.txt", "can't be written"],
+     {"Study/Output folder": "results"}, folder={"results/case.txt/x": ""})
+
+# --- Form of the file ------------------------------------------------------
+case("misspelt_section",
+     ["line 8", "unknown subsection 'Mid-surfaces'", "'Mid-surface'?"],
+     change=("subsection Mid-surface\n", "subsection Mid-surfaces\n"))
+case("misspelt_parameter",
+     ["line 18", "'Section'", "unknown parameter 'Thicknes'",
+      "Did you mean 'Thickness'?"],
+     change=("Thickness       =", "Thicknes       ="))
+case("misspelt_statement", ["line 18", "unknown statement", "set"],
+     change=("set Thickness ", "sett Thickness "))
+case("parameter_in_wrong_section",
+     ["subsection 'Loads'", "unknown parameter 'Thickness'", "Pressure"],
+     change=("set Force per area = 0, 0, -q", "set Thickness = 1"))
+case("missing_end", ["'end'", "'Section'", "missing", "line 15"],
+     change=("0.05\nend\n", "0.05\n"))
+case("missing_last_end",
+     ["the 'end' of subsection 'Quantities'", "is missing"],
+     change=("U = energy\nend\n", "U = energy\n"))
+case("end_too_many", ["'end' has no 'subsection'"],
+     change=("0.05\nend\n", "0.05\nend\nend\n"))
+case("no_equals_sign", ["line 18", "has no '='"],
+     change=("Thickness       = 0.05", "Thickness 0.05"))
+case("value_out_of_pattern", ["Mapping degree", "'9'", "not allowed", "6"],
+     {"Discretization/Mapping degree": "9"})
+case("unknown_element", ["Element", "unknown value 'Lagrang'", "'Lagrange'?"],
+     {"Discretization/Element": "Lagrang"})
+case("unknown_membrane_strain",
+     ["Membrane strain", "unknown value 'tide'", "'tied'?", "reduced"],
+     {"Discretization/Membrane strain": "tide"})
+
+# --- Constants and expressions ---------------------------------------------
+case("constant_without_value", ["Constants", "'b'", "has no value"],
+     {"Constants": "a = 2, q = 1, b"})
+case("constant_bad_name", ["Constants", "'2b'", "can't be the name"],
+     {"Constants": "a = 2, q = 1, 2b = 3"})
+case("constant_shadows_coordinate",
+     ["Constants", "'x'", "it is a coordinate"],
+     {"Constants": "a = 2, q = 1, x = 3"})
+case("constant_shadows_pi", ["Constants", "'pi'", "3.14159"],
+     {"Constants": "a = 2, q = 1, pi = 3"})
+case("constant_shadows_function", ["Constants", "'sin'", "it is a function"],
+     {"Constants": "a = 2, q = 1, sin = 3"})
+case("constant_shadows_section",
+     ["Constants", "'h'", "section's", "another name"],
+     {"Constants": "a = 2, q = 1, h = 3"})
+case("constant_twice", ["Constants", "'q'", "before"],
+     {"Constants": "a = 2, q = 1, q = 3"})
+case("constant_division_by_zero", ["Constants/b", "'1/0'", "finite"],
+     {"Constants": "a = 2, q = 1, b = 1/0"})
+case("expression_malformed",
+     ["Loads/Force per area (z)", "'-q*'", "not a valid expression"],
+     {"Loads/Force per area": "0, 0, -q*"})
+case("expression_parenthesis", ["Loads/Pressure", "'(1 + 2'", "parenthesis"],
+     {"Loads/Pressure": "(1 + 2"})
+case("expression_unknown_name",
+     ["Loads/Pressure", "'2*sim(x)'", "unknown name 'sim'", "'sin'"],
+     {"Loads/Pressure": "2*sim(x)"})
+case("expression_unknown_constant",
+     ["Loads/Force per area (z)", "unknown name 'Q'", "'q'"],
+     {"Loads/Force per area": "0, 0, Q"})
+case("expression_random", ["Loads/Pressure", "'rand()'", "random"],
+     {"Loads/Pressure": "rand()"})
+case("expression_assigns", ["Loads/Pressure", "'x = 1'", "="],
+     {"Loads/Pressure": "x = 1"})
+case("load_division_by_zero",
+     ["Loads/Pressure", "'1/(x-x)'", " at ", "must be finite"],
+     {"Loads/Pressure": "1/(x-x)"})
+case("load_not_a_number",
+     ["Loads/Force per area (z)", "'sqrt(-1-x)'", "must be finite"],
+     {"Loads/Force per area": "0, 0, sqrt(-1-x)"})
+case("load_not_finite_somewhere",
+     ["Loads/Force per area (z)", "'sqrt(1-x)'", "must be finite"],
+     {"Loads/Force per area": "0, 0, sqrt(1-x)"})
+case("load_constant_not_a_number",
+     ["Loads/Pressure", "'0/0'", "must be finite"], {"Loads/Pressure": "0/0"})
+
+# --- Surfaces --------------------------------------------------------------
+case("misspelt_surface",
+     ["Mid-surface/Surface", "unknown surface 'cilinder'", "'cylinder'?",
+      "hyperbolic paraboloid"],
+     {"Mid-surface/Surface": "cilinder"})
+case("radius_negative",
+     ["Mid-surface/cylinder/Radius", "-1", "greater than zero"],
+     {"Mid-surface/Surface": "cylinder",
+      "Mid-surface/cylinder/Radius": "-1"})
+case("size_zero", ["Mid-surface/plate/Size", "0", "greater than zero"],
+     {"Mid-surface/plate/Size": "a, 0"})
+case("size_one_number", ["Mid-surface/plate/Size", "two numbers", "'a'"],
+     {"Mid-surface/plate/Size": "a"})
+case("range_reversed",
+     ["Mid-surface/cylinder/Axial range", "from 1 to 0", "reversed"],
+     {"Mid-surface/Surface": "cylinder", "Mid-surface/Subdivisions": "4, 2",
+      "Mid-surface/cylinder/Axial range": "1, 0"})
+case("angle_range_too_long",
+     ["Mid-surface/cylinder/Angle range", "400", "360"],
+     {"Mid-surface/Surface": "cylinder",
+      "Mid-surface/cylinder/Angle range": "0, 400"})
+case("axis_unknown",
+     ["Mid-surface/cylinder/Axis", "unknown choice 'w'", "x, y, z"],
+     {"Mid-surface/Surface": "cylinder", "Mid-surface/cylinder/Axis": "w"})
+case("torus_meets_itself",
+     ["Mid-surface/torus/Minor radius", "less than the major radius"],
+     {"Mid-surface/Surface": "torus", "Mid-surface/Subdivisions": "4",
+      "Mid-surface/torus/Minor radius": "3"})
+case("fold_angle", ["Mid-surface/folded strip/Fold angle", "180"],
+     {"Mid-surface/Surface": "folded strip",
+      "Mid-surface/folded strip/Fold angle": "180"})
+case("hole_angle", ["Mid-surface/hemisphere/Hole angle", "95", "90"],
+     {"Mid-surface/Surface": "hemisphere",
+      "Mid-surface/hemisphere/Hole angle": "95"})
+case("disk_part", ["Mid-surface/disk/Part", "'quater'", "'quarter'?"],
+     {"Mid-surface/Surface": "disk", "Mid-surface/disk/Part": "quater"})
+case("patches_two_subdivisions",
+     ["Mid-surface/Subdivisions", "'2, 3'", "one number"],
+     {"Mid-surface/Surface": "disk", "Mid-surface/Subdivisions": "2, 3"})
+case("subdivisions_zero", ["Mid-surface/Subdivisions", "0", "between 1 and"],
+     {"Mid-surface/Subdivisions": "0"})
+case("subdivisions_fraction", ["Mid-surface/Subdivisions", "2.5", "whole"],
+     {"Mid-surface/Subdivisions": "2.5"})
+case("subdivisions_closed",
+     ["Mid-surface/Subdivisions", "2", "closed", "at least 3"],
+     {"Mid-surface/Surface": "cylinder"})
+case("grading_wrong_end",
+     ["Mid-surface/Grading u", "'2*s'", "from 0 to 1"],
+     {"Mid-surface/Grading u": "2*s"})
+case("grading_falls", ["Mid-surface/Grading v", "doesn't grow between"],
+     {"Mid-surface/Grading v": "s*(4*s^2 - 4*s + 1)"})
+case("position_two_components",
+     ["Mid-surface/expression/Position", "three expressions", "'u, v'"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u, v"})
+case("position_unknown_name",
+     ["Mid-surface/expression/Position", "unknown name 'x'", "u, v"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u, v, x"})
+case("position_not_finite",
+     ["Mid-surface/expression/Position", "'1/u'", "finite"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u, v, 1/u"})
+case("surface_degenerate_pole",
+     ["Mid-surface/expression", "degenerate", "Jacobian"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u*cos(v), u*sin(v), 0"})
+case("surface_degenerate_line",
+     ["Mid-surface/expression", "degenerate", "Jacobian"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u, u, u"})
+case("surface_does_not_meet",
+     ["Mid-surface/expression", "closed"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/Subdivisions": "4, 2",
+      "Mid-surface/expression/Position": "cos(u), sin(u), v",
+      "Mid-surface/expression/Range u": "0, 6",
+      "Mid-surface/expression/Closed": "u"})
+
+# --- Conditions ------------------------------------------------------------
+EDGES = "Boundary conditions/Edges"
+POINTS = "Boundary conditions/Points"
+case("misspelt_edge", [EDGES, "unknown edge 'u=2'", "'u=0'", "v=1"],
+     {EDGES: "u=2: clamped"})
+case("edge_of_closed_surface",
+     [EDGES, "unknown edge 'u=0'", "Known: v=0, v=1"],
+     {"Mid-surface/Surface": "cylinder", "Mid-surface/Subdivisions": "4, 2"})
+case("surface_without_edges", [EDGES, "unknown edge 'u=0'", "no edges"],
+     {"Mid-surface/Surface": "sphere"})
+case("misspelt_condition",
+     [EDGES, "'u=0'", "unknown condition 'clampd'", "'clamped'?",
+      "diaphragm"],
+     {EDGES: "u=0: clampd"})
+case("misspelt_component",
+     [EDGES, "'u=0'", "unknown condition 'conorml'", "'conormal'"],
+     {EDGES: "u=0: conorml = 0"})
+case("condition_without_value", [EDGES, "'x' needs a value", "x = 0"],
+     {EDGES: "u=0: x"})
+case("condition_without_colon", [EDGES, "'u=0 clamped'", "has no ':'"],
+     {EDGES: "u=0 clamped"})
+case("edge_without_condition", [EDGES, "'u=0'", "no condition", "free"],
+     {EDGES: "u=0:"})
+case("edge_twice", [EDGES, "'u=0'", "conditions twice"],
+     {EDGES: "u=0: clamped; u=0: x = 1"})
+case("component_twice", [EDGES, "'u=0'", "prescribes 'x' a second time"],
+     {EDGES: "u=0: x = 0, x = 1; u=1: fixed"})
+case("component_after_clamped",
+     [EDGES, "'u=0'", "'z = 1'", "a second time"],
+     {EDGES: "u=0: clamped, z = 1"})
+case("rotation_twice", [EDGES, "rotation", "a second time"],
+     {EDGES: "u=0: clamped, rotation = 1"})
+case("contradiction_at_corner",
+     ["Contradicting conditions at the point (0, 0, 0)", "'u=0'", "'v=0'",
+      "z = 1"],
+     {EDGES: "u=0: clamped; v=0: z = 1"})
+case("contradiction_on_edge",
+     ["Contradicting conditions at the point (", "conormal = 1", "x = 0"],
+     {EDGES: "u=0: x = 0, y = 0, z = 0, conormal = 1; u=1: fixed"})
+case("contradiction_at_support",
+     ["Contradicting conditions at the point (0, 0, 0)", POINTS, "z = 1"],
+     {POINTS: "(0, 0, 0): z = 1"})
+case("condition_not_finite", [EDGES, "'u=0'", "1/(x-x)", "must be finite"],
+     {EDGES: "u=0: x = 0, y = 0, z = 1/(x-x), rotation = 0"})
+case("symmetry_not_plane",
+     [EDGES, "'v=0'", "symmetry", "lies in no plane"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position": "u, v + u^2, u^3*(1 - v)",
+      EDGES: "u=0: clamped; v=0: symmetry"})
+case("support_off_the_mesh",
+     [POINTS, "(0.1, 0.1, 0)", "nearest one is (0, 0, 0)"],
+     {POINTS: "(0.1, 0.1, 0): x = 0"})
+case("support_two_components", [POINTS, "(0, 0)", "2 components"],
+     {POINTS: "(0, 0): x = 0"})
+case("support_condition", [POINTS, "'clamped'", "'x = value'", "'fixed'"],
+     {POINTS: "(0, 0, 0): clamped"})
+case("support_without_condition", [POINTS, "(2, 1, 0)", "no condition"],
+     {POINTS: "(2, 1, 0):"})
+
+# --- Free motions ----------------------------------------------------------
+case("free_plate",
+     ["Boundary conditions", "can move freely", "translation along (1, 0, 0)",
+      "translation along (0, 1, 0)", "translation along (0, 0, 1)",
+      "rotation about (1, 0, 0)", "rotation about (0, 1, 0)",
+      "rotation about (0, 0, 1)"],
+     {EDGES: ""})
+case("plate_may_slide",
+     ["can move freely: translation along (0, 1, 0)"],
+     {EDGES: "u=0: x = 0, z = 0; u=1: x = 0, z = 0"})
+case("plate_may_turn",
+     ["can move freely: rotation about (0, 1, 0) through (0, 0.5, 0)"],
+     {EDGES: "u=0: fixed"})
+case("roof_may_slide",
+     ["can move freely: translation along (0, 1, 0)"],
+     {"Mid-surface/Surface": "cylinder", "Mid-surface/cylinder/Axis": "y",
+      "Mid-surface/cylinder/Radius": "25",
+      "Mid-surface/cylinder/Axial range": "0, 50",
+      "Mid-surface/cylinder/Angle range": "-40, 40",
+      EDGES: "v=0, v=1: diaphragm"})
+
+# --- Loads -----------------------------------------------------------------
+case("force_two_components", ["Loads/Force per area", "'0, 1'", "three"],
+     {"Loads/Force per area": "0, 1"})
+case("edge_force_on_unknown_edge",
+     ["Loads/Edge forces", "unknown edge 'u=3'", "u=1"],
+     {"Loads/Edge forces": "u=3: 0, 0, 1"})
+case("edge_force_twice", ["Loads/Edge forces", "'u=1'", "twice"],
+     {"Loads/Edge forces": "u=1: 0, 0, 1; u=1: 0, 0, 2"})
+case("edge_force_not_finite",
+     ["Loads/Edge forces", "'v=1'", "1/(y-y)", "must be finite"],
+     {"Loads/Edge forces": "v=1: 0, 0, 1/(y-y)"})
+case("edge_moment_of_three", ["Loads/Edge moments", "'u=1'", "one expression"],
+     {"Loads/Edge moments": "u=1: 0, 0, 1"})
+case("edge_moment_without_colon", ["Loads/Edge moments", "'u=1 5'", "no ':'"],
+     {"Loads/Edge moments": "u=1 5"})
+case("point_force_off_the_mesh",
+     ["Loads/Point forces", "off the mid-surface", "nearest point",
+      re.compile(r"\(\s*1,? 0.5,? -?0\)")],
+     {"Loads/Point forces": "(1, 0.5, 1): 0, 0, 1"})
+case("point_force_two_components", ["Loads/Point forces", "'0, 1'", "2"],
+     {"Loads/Point forces": "(1, 0.5, 0): 0, 1"})
+
+# --- Quantities ------------------------------------------------------------
+QUANTITIES = "Quantities/Quantities"
+case("misspelt_quantity",
+     [QUANTITIES, "'w'", "unknown kind of quantity 'enregy'", "'energy'",
+      "maximum displacement"],
+     {QUANTITIES: "w = enregy"})
+case("quantity_without_kind", [QUANTITIES, "'energy'", "name = kind"],
+     {QUANTITIES: "energy"})
+case("quantity_twice", [QUANTITIES, "named 'w'"],
+     {QUANTITIES: "w = energy; w = bending energy"})
+case("quantity_without_name", [QUANTITIES, "no name"],
+     {QUANTITIES: "= energy"})
+case("quantity_more_words", [QUANTITIES, "'w'", "'of all'"],
+     {QUANTITIES: "w = energy of all"})
+case("quantity_direction", [QUANTITIES, "'w'", "unknown direction 'Z'", "'z'"],
+     {QUANTITIES: "w = displacement Z at (1, 0.5, 0)"})
+case("quantity_direction_zero", [QUANTITIES, "'w'", "no length"],
+     {QUANTITIES: "w = displacement (0, 0, 0) at (1, 0.5, 0)"})
+case("quantity_without_point", [QUANTITIES, "'w'", "displacement z at (x, y, z)"],
+     {QUANTITIES: "w = displacement z"})
+case("quantity_off_the_mesh",
+     [QUANTITIES, "'w'", "off the mid-surface", "nearest point",
+      re.compile(r"\(2, 0.5, -?0\)")],
+     {QUANTITIES: "w = displacement z at (3, 0.5, 0)"})
+case("quantity_unknown_edge", [QUANTITIES, "'R'", "unknown edge 'u=7'", "u=1"],
+     {QUANTITIES: "R = reaction x of u=7"})
+case("quantity_reaction_form", [QUANTITIES, "'R'", "reaction x of EDGE"],
+     {QUANTITIES: "R = reaction x"})
+case("reference_zero", [QUANTITIES, "'w'", "reference", "0"],
+     {QUANTITIES: "w = displacement z at (1, 0.5, 0) -> 0"})
+case("reference_malformed", [QUANTITIES, "'w'", "not a valid expression"],
+     {QUANTITIES: "w = energy -> 1 +"})
+case("reference_empty", [QUANTITIES, "'w'", "is empty"],
+     {QUANTITIES: "w = energy ->"})
+case("error_without_exact_solution",
+     [QUANTITIES, "'e'", "'L2 error'", "Exact solution/Displacement"],
+     {QUANTITIES: "e = L2 error"})
+case("exact_solution_two_components",
+     ["Exact solution/Displacement", "three", "'x, y'"],
+     {"Exact solution/Displacement": "x, y"})
+case("exact_solution_not_finite",
+     ["Exact solution/Displacement", "log(-1-x)", "must be finite"],
+     {"Exact solution/Displacement": "x, y, log(-1-x)",
+      QUANTITIES: "e = L2 error"})
+
+# --- Command line ----------------------------------------------------------
+case("file_missing", ["'nowhere.prm'", "doesn't exist"], prm=None,
+     args=["nowhere.prm"])
+case("file_is_a_folder", ["'here'", "is a folder"], prm=None, args=["here"],
+     folder={"here/x": ""})
+case("no_file", ["no parameter file", "Usage", "--help"], prm=None, code=2)
+case("two_files", ["more than one parameter file", "Usage"],
+     args=["{prm}", "{prm}"], code=2)
+case("unknown_option", ["unknown option", "'--chek'", "'--check'?"],
+     args=["{prm}", "--chek"], code=2)
+case("set_without_argument", ["command line", "--set", "--help"],
+     args=["{prm}", "--set"], code=2)
+case("set_without_equals",
+     ["--set", "Section/Thickness", "has no '='", "Section/Parameter=value"],
+     args=["--set", "Section/Thickness"])
+case("set_unknown_section",
+     ["--set", "unknown section 'Sektion'", "'Section'?"],
+     args=["--set", "Sektion/Thickness=1"])
+case("set_unknown_parameter",
+     ["--set", "unknown parameter 'thickness'", "'Thickness'?"],
+     args=["--set", "Section/thickness=1"])
+case("set_value_out_of_pattern",
+     ["--set", "Study/Degrees=7", "'7'", "not allowed"],
+     args=["--set", "Study/Degrees=7"])
+case("set_bad_value", ["Section/Thickness", "-1", "positive"],
+     args=["--set", "Section/Thickness=-1"])
+case("check_finds_error", ["unknown condition 'clampd'"],
+     {EDGES: "u=0: clampd"}, args=["--check"])
