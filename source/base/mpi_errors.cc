@@ -6,14 +6,12 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <sstream>
 #include <thread>
-#include <vector>
 
 namespace Nacre
 {
@@ -48,19 +46,14 @@ namespace Nacre
       std::cerr << "nacre: error: " + text + '\n' << std::flush;
     }
 
-    /** On rank 0, each different text once, that of the lowest rank first. */
-    void
-    print_errors_of_all_ranks(const MPI_Comm     communicator,
-                              const std::string &text)
+    /** Of the texts of all ranks, the first that isn't empty; collective. */
+    std::string
+    first_error(const MPI_Comm communicator, const std::string &text)
     {
-      const auto texts = Utilities::MPI::gather(communicator, text);
-      std::vector<std::string> printed;
-      for (const auto &other : texts)
-        if (std::find(printed.begin(), printed.end(), other) == printed.end())
-          {
-            print_error(other);
-            printed.push_back(other);
-          }
+      for (const auto &other : Utilities::MPI::all_gather(communicator, text))
+        if (!other.empty())
+          return other;
+      return "";
     }
   } // namespace
 
@@ -112,7 +105,10 @@ namespace Nacre
             print_error(*error);
             MPI_Abort(communicator, 1);
           }
-        print_errors_of_all_ranks(errors, *error);
+        // What is wrong differs between ranks in the place only.
+        const std::string text = first_error(errors, *error);
+        if (Utilities::MPI::this_mpi_process(communicator) == 0)
+          print_error(text);
         code = 1;
       }
     MPI_Comm_free(&errors);
@@ -135,6 +131,24 @@ namespace Nacre
           error = error_text(exception);
         }
     error = Utilities::MPI::broadcast(communicator, error);
+    AssertThrow(error.empty(), ExcMessage(error));
+  }
+
+
+  void
+  run_on_all_ranks(const MPI_Comm               communicator,
+                   const std::function<void()> &function)
+  {
+    std::string error;
+    try
+      {
+        function();
+      }
+    catch (const std::exception &exception)
+      {
+        error = error_text(exception);
+      }
+    error = first_error(communicator, error);
     AssertThrow(error.empty(), ExcMessage(error));
   }
 } // namespace Nacre

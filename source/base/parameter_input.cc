@@ -114,6 +114,26 @@ namespace Nacre
       return result;
     }
 
+    /** What a pattern allows; a list without its bound of 2^32 - 1. */
+    std::string
+    allowed_values(const Patterns::PatternBase &pattern)
+    {
+      const std::string text =
+        Text::trim(pattern.description(Patterns::PatternBase::Text));
+      const std::string begin = "A list of ";
+      const std::string middle =
+        " to " + std::to_string(Patterns::List::max_int_value) +
+        " elements where each element is [";
+      const auto at = text.find(middle);
+      if (text.rfind(begin, 0) != 0 || at == std::string::npos ||
+          text.back() != ']')
+        return text;
+      const auto number = text.substr(begin.size(), at - begin.size());
+      const auto inside = at + middle.size();
+      return "A list, separated by commas, of at least " + number + " of: " +
+             text.substr(inside, text.size() - inside - 1);
+    }
+
     void
     check_value(const Tree        &parameter,
                 const std::string &value,
@@ -135,7 +155,7 @@ namespace Nacre
         false,
         ExcMessage(
           where + ": the value '" + value + "' is not allowed. Allowed: " +
-          Text::trim(pattern->description(Patterns::PatternBase::Text)) + "."));
+          allowed_values(*pattern) + "."));
     }
 
     /** Checks a file line by line as ParameterHandler would read it. */
@@ -411,10 +431,13 @@ namespace Nacre
   print_template(std::ostream &out)
   {
     ParameterAcceptor::declare_all_parameters();
+    // ParameterHandler throws on a stream that writes nothing: other ranks'.
+    std::ostringstream text;
     ParameterAcceptor::prm.print_parameters(
-      out,
+      text,
       static_cast<ParameterHandler::OutputStyle>(ParameterHandler::PRM |
                                                  declaration_order));
+    out << text.str();
   }
 
 

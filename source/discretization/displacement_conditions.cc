@@ -373,9 +373,16 @@ namespace Nacre
         Vector3 rest      = component.direction;
         double  value     = component.value;
         double  magnitude = std::abs(value);
+        double  largest   = 0.;
+        const std::string *nearest = nullptr;
         for (const auto &known : basis)
           {
             const double part = component.direction * known.direction;
+            if (std::abs(part) > largest)
+              {
+                largest = std::abs(part);
+                nearest = known.source;
+              }
             rest -= part * known.direction;
             value -= part * known.value;
             magnitude += std::abs(part * known.value);
@@ -391,7 +398,7 @@ namespace Nacre
             message << "Contradicting conditions at the point ("
                     << node.position[0] << ", " << node.position[1] << ", "
                     << node.position[2] << "): '" << *component.source
-                    << "' against '" << *basis.back().source << "'.";
+                    << "' against '" << *nearest << "'.";
             AssertThrow(std::abs(value) <= 1e-3 * rest.norm() + 1e-8 * magnitude,
                         ExcMessage(message.str()));
           }

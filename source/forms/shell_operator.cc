@@ -53,13 +53,29 @@ namespace Nacre
     CopyData()                      = default;
     CopyData(const CopyData &other) = default;
 
-    /** mesh_loop() resets by assignment: keep the storage of the faces. */
+    /**
+     * mesh_loop() resets by assignment: forget what the cell gave, but keep
+     * the storage. Cells of other ranks leave it at that.
+     */
     CopyData &
     operator=(const CopyData &other)
     {
-      wants_tangent = other.wants_tangent;
-      n_faces       = 0;
+      wants_tangent  = other.wants_tangent;
+      terms.energies = Energies();
+      dofs.clear();
+      n_faces = 0;
       return *this;
+    }
+
+    /** Call @p add(terms, dofs) for the cell and its faces. */
+    template <typename Function>
+    void
+    for_each(const Function &add) const
+    {
+      if (!dofs.empty())
+        add(terms, dofs);
+      for (unsigned int f = 0; f < n_faces; ++f)
+        add(faces[f].terms, faces[f].dofs);
     }
 
     FaceCopy &
@@ -161,14 +177,11 @@ namespace Nacre
     // The residual at zero displacement is the negative load.
     dealii::Vector<double> load;
     loop(nullptr, true, [&](const CopyData &copy) {
-      const auto add = [&](const LocalTerms &terms, const auto &dofs) {
+      copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
         load = terms.residual;
         load *= -1.;
         scatter.add(terms.tangent, load, dofs);
-      };
-      add(copy.terms, copy.dofs);
-      for (unsigned int f = 0; f < copy.n_faces; ++f)
-        add(copy.faces[f].terms, copy.faces[f].dofs);
+      });
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);
@@ -181,15 +194,12 @@ namespace Nacre
     result = 0.;
     Energies sum;
     loop(&u, false, [&](const CopyData &copy) {
-      const auto add = [&](const LocalTerms &terms, const auto &dofs) {
+      copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
         result.add(dofs,
                    std::vector<double>(terms.residual.begin(),
                                        terms.residual.end()));
         sum += terms.energies;
-      };
-      add(copy.terms, copy.dofs);
-      for (unsigned int f = 0; f < copy.n_faces; ++f)
-        add(copy.faces[f].terms, copy.faces[f].dofs);
+      });
     });
     result.compress(VectorOperation::add);
     AffineConstraints<double> none;
@@ -270,7 +280,6 @@ namespace Nacre
     ScratchData                                           &scratch,
     CopyData                                              &copy) const
   {
-    copy.n_faces             = 0;
     copy.terms.wants_tangent = copy.wants_tangent;
     copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
     cell->get_dof_indices(copy.dofs);

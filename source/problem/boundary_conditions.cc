@@ -172,6 +172,10 @@ namespace Nacre
         PointSupport support;
         support.source   = points_parameter + ", point " + position;
         support.position = evaluate_point(position, support.source, constants);
+        AssertThrow(!items.empty(),
+                    ExcMessage(support.source +
+                               " has no condition; write 'fixed' or "
+                               "'x = value'."));
         for (const auto &item : Text::split(items, ',', support.source))
           {
             const auto [key, value] = Text::key_and_value(item);

@@ -102,7 +102,9 @@ namespace Nacre
       else
         {
           penalties.emplace_back(
-            evaluate_number(text, "Study/Penalties", constants));
+            evaluate_number(text,
+                            "Study/Penalties, 'default' or a number",
+                            constants));
           AssertThrow(*penalties.back() > 0.,
                       ExcMessage("Study/Penalties: eta = '" + text +
                                  "' is not positive."));
@@ -202,6 +204,7 @@ namespace Nacre
         log.progress() << '[' << k + 1 << '/' << cases.size() << "] "
                        << line.str() << std::endl;
 
+        run_on_root(communicator_, [&]() { table.write_files(base); });
         if (write_vtu_)
           vtu_output.write(shell.discretization,
                            shell.section,
@@ -210,7 +213,6 @@ namespace Nacre
                            output_folder_,
                            name_,
                            k);
-        run_on_root(communicator_, [&]() { table.write_files(base); });
       }
 
     std::ostringstream text;

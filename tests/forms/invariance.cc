@@ -132,7 +132,7 @@ compare(const std::string &name, const Energies &found, const Energies &exact)
               1e-12);
   check_below(name + ": edge energy",
               std::abs(found.edge / exact.edge - 1.),
-              1e-12);
+              1e-11);
 }
 
 void

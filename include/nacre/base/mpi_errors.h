@@ -36,6 +36,15 @@ namespace Nacre
   void
   run_on_root(const MPI_Comm               communicator,
               const std::function<void()> &function);
+
+  /**
+   * Call @p function, which must not communicate, on all ranks. If it throws
+   * on some, every rank throws an ExcMessage of the lowest one's text, so that
+   * none waits for another. Collective.
+   */
+  void
+  run_on_all_ranks(const MPI_Comm               communicator,
+                   const std::function<void()> &function);
 } // namespace Nacre
 
 #endif
