@@ -71,6 +71,17 @@ namespace Nacre
     if (dynamic_cast<const std::bad_alloc *>(&exception) != nullptr)
       return "out of memory. Use fewer refinements, a lower degree, or a "
              "machine with more memory.";
+#ifndef DEBUG
+    // Without its frame and the stack.
+    if (const auto *internal = dynamic_cast<const ExceptionBase *>(&exception))
+      {
+        std::ostringstream out;
+        internal->print_info(out);
+        return "the computation failed inside of the program; are all values "
+               "of a reasonable size? " +
+               Text::trim(out.str());
+      }
+#endif
     return Text::trim(exception.what());
   }
 

@@ -148,6 +148,9 @@ namespace Nacre
       {
         const auto [names, items] =
           name_and_items(entry, edges_parameter, "u=0: clamped");
+        AssertThrow(!names.empty(),
+                    ExcMessage(edges_parameter + ": '" + entry +
+                               "' names no edge; write 'u=0: clamped'."));
         for (const auto &name : Text::split(names, ',', edges_parameter))
           {
             const auto id    = midsurface.edge_id(name, edges_parameter);

@@ -24,6 +24,9 @@ namespace Nacre
                       ExcMessage(parameter + ": '" + entry +
                                  "' has no ':' between the place and the "
                                  "load."));
+          AssertThrow(!Text::trim(entry.substr(0, colon)).empty(),
+                      ExcMessage(parameter + ": '" + entry +
+                                 "' names no place before ':'."));
           for (const auto &place :
                Text::split(entry.substr(0, colon), ',', parameter))
             add(place,

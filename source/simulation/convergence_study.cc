@@ -11,6 +11,7 @@
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/convergence_study.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <sstream>
@@ -188,6 +189,10 @@ namespace Nacre
         for (const auto &quantity : quantities_.quantities())
           {
             row.values.push_back(quantity.evaluate(shell));
+            AssertThrow(std::isfinite(row.values.back()),
+                        ExcMessage("The quantity '" + quantity.name +
+                                   "' is not a finite number. Are the loads "
+                                   "or the section's values extreme?"));
             row.references.push_back(quantity.reference);
           }
         table.add_row(row);
