@@ -77,9 +77,10 @@ namespace Nacre
       {
         std::ostringstream out;
         internal->print_info(out);
+        const std::string info = Text::trim(out.str());
         return "the computation failed inside of the program; are all values "
-               "of a reasonable size? " +
-               Text::trim(out.str());
+               "of a reasonable size?" +
+               (info == "(none)" ? "" : " " + info);
       }
 #endif
     return Text::trim(exception.what());

@@ -31,7 +31,7 @@ namespace Nacre
                   "Young's modulus E, a number or an expression of x, y, z. "
                   "Units: force/length^2.");
     add_parameter("Poisson's ratio",
-                  nu_,
+                  nu_text_,
                   "Poisson's ratio nu, larger than -1 and smaller than 0.5. "
                   "Units: none.");
     add_parameter("Thickness",
@@ -47,6 +47,7 @@ namespace Nacre
   void
   LinearElasticSection::prepare(const Constants &constants)
   {
+    nu_ = evaluate_number(nu_text_, "Section/Poisson's ratio", constants);
     AssertThrow(nu_ > -1. && nu_ < 0.5,
                 ExcMessage("Section/Poisson's ratio: " + std::to_string(nu_) +
                            "; it must be larger than -1 and smaller than "

@@ -36,11 +36,13 @@ namespace Nacre
              std::isfinite(point[2]);
     }
 
-    /** The corners and Gauss points of a cell: where the surface is checked. */
+    constexpr unsigned int n_samples = 5;
+
+    /** The Gauss points of a cell, then its corners: checked are these. */
     std::vector<Point<2>>
     sample_points()
     {
-      std::vector<Point<2>> points = QGauss<2>(5).get_points();
+      std::vector<Point<2>> points = QGauss<2>(n_samples).get_points();
       for (unsigned int i = 0; i < 4; ++i)
         points.push_back(unit_corner(i));
       return points;
@@ -222,6 +224,7 @@ namespace Nacre
 
     const std::vector<Point<2>> points = sample_points();
     std::vector<double>         jacobians(points.size());
+    std::vector<std::array<Tensor<1, 3>, 2>> all_tangents(points.size());
     for (unsigned int k = 0; k < description_.cells.size(); ++k)
     {
       std::array<double, 2> longest{{0., 0.}};
@@ -243,6 +246,7 @@ namespace Nacre
           longest[a] = std::max(longest[a], tangents[a].norm());
         }
         jacobians[q] = cross_product_3d(tangents[0], tangents[1]).norm();
+        all_tangents[q] = tangents;
       }
       for (unsigned int q = 0; q < points.size(); ++q)
         AssertThrow(jacobians[q] > tolerance * longest[0] * longest[1],
@@ -252,6 +256,20 @@ namespace Nacre
                       ": its area Jacobian |x,u x x,v| is zero there. Every "
                       "point needs two independent tangents (no poles, no "
                       "sides shrunk to a point or a line)."));
+      // Along a line of Gauss points the surface must not turn back.
+      for (unsigned int q = 0; q < n_samples * n_samples; ++q)
+        for (unsigned int a = 0; a < 2; ++a)
+        {
+          if ((a == 0 ? q % n_samples : q / n_samples) + 1 == n_samples)
+            continue;
+          const unsigned int  next = q + (a == 0 ? 1 : n_samples);
+          const Tensor<1, 3> &t = all_tangents[q][a], &s = all_tangents[next][a];
+          AssertThrow(t * s > -0.9 * t.norm() * s.norm(),
+                      ExcMessage(where + ": the surface is degenerate: it "
+                                         "turns back on itself between " +
+                                 describe(k, points[q]) + " and " +
+                                 describe(k, points[next]) + "."));
+        }
     }
   }
 

@@ -222,7 +222,9 @@ namespace Nacre
 
     std::ostringstream text;
     table.write_text(text, report_seconds_);
-    log.results() << '\n' << heading_.title << '\n' << text.str()
+    if (!heading_.title.empty())
+      log.results() << '\n' << heading_.title << std::endl;
+    log.results() << text.str()
                   << "\nResults: " << base << ".csv (.txt, .tex"
                   << (write_vtu_ ? ", .pvd)" : ")") << std::endl;
   }

@@ -11,6 +11,9 @@
 
 #include <deal.II/base/timer.h>
 
+#include <iomanip>
+#include <sstream>
+
 namespace Nacre
 {
   ShellProblem::ShellProblem(const MPI_Comm              communicator,
@@ -136,7 +139,7 @@ namespace Nacre
     timer.stop();
     times_.setup = timer.cpu_time();
 
-    solve_linear_system(conditions.constraints());
+    solve_linear_system(conditions.constraints(), log);
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
@@ -153,7 +156,8 @@ namespace Nacre
 
   void
   ShellProblem::solve_linear_system(
-    const AffineConstraints<double> &constraints)
+    const AffineConstraints<double> &constraints,
+    Log                             &log)
   {
     Timer      timer(communicator_, true);
     const auto lap = [&](double &sum) {
@@ -175,12 +179,24 @@ namespace Nacre
     std::ostringstream message;
     message << "The stiffness matrix is not positive definite: "
             << solver.n_negative_pivots()
-            << " negative pivots. Study/Penalties: eta = " << eta()
+            << (solver.n_negative_pivots() == 1 ? " negative pivot" :
+                                                  " negative pivots")
+            << ". Study/Penalties: eta = " << eta()
             << " is too small; the bound is " << operator_->penalty().bound()
             << ".";
     AssertThrow(solver.n_negative_pivots() == 0, ExcMessage(message.str()));
-    solver.solve(solution, right_hand_side);
+    const auto accuracy = solver.solve(solution, right_hand_side);
     lap(times_.solve);
+    if (accuracy.correction > 1e-5)
+      {
+        std::ostringstream text;
+        text << std::setprecision(1) << std::scientific
+             << "the stiffness matrix is so ill-conditioned that the "
+                "displacements are uncertain by about "
+             << accuracy.correction
+             << " of their size; cells much longer than wide do that.";
+        log.warning(text.str());
+      }
 
     constraints.distribute(solution);
     displacement_.reinit(owned,

@@ -372,8 +372,10 @@ namespace Nacre
     std::vector<double>().swap(values);
     mumps.a_loc = nullptr;
     AssertThrow(is_factorised,
-                ExcMessage("The matrix is singular. Is the shell, or a part "
-                           "of it, free to move as a rigid body?"));
+                ExcMessage("The matrix is singular to working precision. "
+                           "Either the shell, or a part of it, is free to "
+                           "move, or its cells are too thin or too much "
+                           "longer than wide."));
   }
 
 
@@ -523,7 +525,7 @@ namespace Nacre
   }
 
 
-  double
+  SolveAccuracy
   DirectSolver::solve(TrilinosWrappers::MPI::Vector       &x,
                       const TrilinosWrappers::MPI::Vector &b) const
   {
@@ -543,11 +545,15 @@ namespace Nacre
     implementation_->substitute(x, b);
     TrilinosVector r(b), dx(b), x_new(b);
     double         error = residual(r, matrix, x, b);
+    SolveAccuracy  accuracy;
     for (unsigned int step = 0;
-         step < 3 && error > 4. * std::numeric_limits<double>::epsilon();
+         step < 3 &&
+         (step == 0 || error > 4. * std::numeric_limits<double>::epsilon());
          ++step)
       {
         implementation_->substitute(dx, r);
+        if (step == 0 && x.linfty_norm() > 0.)
+          accuracy.correction = dx.linfty_norm() / x.linfty_norm();
         x_new = x;
         x_new += dx;
         const double new_error = residual(r, matrix, x_new, b);
@@ -559,6 +565,7 @@ namespace Nacre
         if (!halved)
           break;
       }
-    return error;
+    accuracy.backward_error = error;
+    return accuracy;
   }
 } // namespace Nacre

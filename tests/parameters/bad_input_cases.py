@@ -81,6 +81,12 @@ for name, value in (("half", "0.5"), ("too_large", "0.7"),
          ["Section/Poisson's ratio", value, "larger than -1",
           "smaller than 0.5"],
          {"Section/Poisson's ratio": value})
+case("thickness_vanishes",
+     ["computation failed", "values of a reasonable size"],
+     {"Section/Thickness": "1e-200"})
+case("thickness_negative_on_one_rank",
+     ["Section/Thickness", "at the point (2", "must be positive"],
+     {"Section/Thickness": "1.95 - x", "Mid-surface/Subdivisions": "8, 2"})
 case("density_negative", ["Section/Density", "-1", "must not be negative"],
      {"Section/Density": "-1", "Loads/Gravity": "0, 0, -9.81"})
 
@@ -92,13 +98,13 @@ case("eta_too_small",
      ["is below the bound", "not positive definite", "negative pivots",
       "Study/Penalties: eta = 1e-06 is too small"],
      {"Study/Penalties": "1e-6", "Study/Degrees": "3"})
-case("eta_unknown_word", ["Study/Penalties", "'defualt'", "unknown name"],
+case("eta_unknown_word", ["Study/Penalties, 'default' or a number", "unknown name 'defualt'"],
      {"Study/Penalties": "defualt"})
 case("eta_none", ["Study/Penalties", "'default' or a number"],
      {"Study/Penalties": ""})
 case("thicknesses_negative", ["Study/Thicknesses", "'-0.1'", "not positive"],
      {"Study/Thicknesses": "0.1, -0.1"})
-case("degree_1", ["Degrees", "'1'", "2", "5"], {"Study/Degrees": "1"})
+case("degree_1", ["Degrees", "'1'", "at least 1", "2 <= n <= 5"], {"Study/Degrees": "1"})
 case("degree_6", ["Degrees", "'2, 6'", "2", "5"], {"Study/Degrees": "2, 6"})
 case("degree_none", ["Degrees", "''", "not allowed"], {"Study/Degrees": ""})
 case("degree_not_a_number", ["Degrees", "'two'", "not allowed"],
@@ -170,6 +176,9 @@ case("constant_shadows_function", ["Constants", "'sin'", "it is a function"],
 case("constant_shadows_section",
      ["Constants", "'h'", "section's", "another name"],
      {"Constants": "a = 2, q = 1, h = 3"})
+case("poissons_ratio_expression",
+     ["Poisson's ratio", "'0.3*x'", "not allowed", "number"],
+     {"Section/Poisson's ratio": "0.3*x"})
 case("constant_twice", ["Constants", "'q'", "before"],
      {"Constants": "a = 2, q = 1, q = 3"})
 case("constant_division_by_zero", ["Constants/b", "'1/0'", "finite"],
@@ -242,6 +251,10 @@ case("patches_two_subdivisions",
      {"Mid-surface/Surface": "disk", "Mid-surface/Subdivisions": "2, 3"})
 case("subdivisions_zero", ["Mid-surface/Subdivisions", "0", "between 1 and"],
      {"Mid-surface/Subdivisions": "0"})
+case("subdivisions_none", ["Mid-surface/Subdivisions", "''", "one or two"],
+     {"Mid-surface/Subdivisions": ""})
+case("grading_none", ["Mid-surface/Grading u is empty"],
+     {"Mid-surface/Grading u": ""})
 case("subdivisions_fraction", ["Mid-surface/Subdivisions", "2.5", "whole"],
      {"Mid-surface/Subdivisions": "2.5"})
 case("subdivisions_closed",
@@ -272,6 +285,11 @@ case("surface_degenerate_line",
      ["Mid-surface/expression", "degenerate", "Jacobian"],
      {"Mid-surface/Surface": "expression",
       "Mid-surface/expression/Position": "u, u, u"})
+for name, x in (("fold", "abs(u - 0.3)"), ("cusp", "(u - 0.31)^2")):
+    case("surface_degenerate_" + name,
+         ["Mid-surface/expression", "degenerate", "turns back", "between"],
+         {"Mid-surface/Surface": "expression", "Quantities/Quantities": "",
+          "Mid-surface/expression/Position": x + ", v, 0"})
 case("surface_does_not_meet",
      ["Mid-surface/expression", "closed"],
      {"Mid-surface/Surface": "expression",
@@ -301,6 +319,10 @@ case("condition_without_value", [EDGES, "'x' needs a value", "x = 0"],
      {EDGES: "u=0: x"})
 case("condition_without_colon", [EDGES, "'u=0 clamped'", "has no ':'"],
      {EDGES: "u=0 clamped"})
+case("condition_without_edge", [EDGES, "': fixed'", "names no edge"],
+     {EDGES: ": fixed"})
+case("condition_list_ends_in_comma", [EDGES, "part 2 of 'fixed,' is empty"],
+     {EDGES: "u=0: fixed,"})
 case("edge_without_condition", [EDGES, "'u=0'", "no condition", "free"],
      {EDGES: "u=0:"})
 case("edge_twice", [EDGES, "'u=0'", "conditions twice"],
@@ -339,6 +361,10 @@ case("support_condition", [POINTS, "'clamped'", "'x = value'", "'fixed'"],
 case("support_without_condition", [POINTS, "(2, 1, 0)", "no condition"],
      {POINTS: "(2, 1, 0):"})
 
+case("point_support_twice",
+     ["Contradicting conditions at the point (1, 0.5, 0)", "x = 1", "x = 0"],
+     {POINTS: "(1, 0.5, 0): x = 0; (1, 0.5, 0): x = 1"})
+
 # --- Free motions ----------------------------------------------------------
 case("free_plate",
      ["Boundary conditions", "can move freely", "translation along (1, 0, 0)",
@@ -371,6 +397,17 @@ case("edge_force_twice", ["Loads/Edge forces", "'u=1'", "twice"],
 case("edge_force_not_finite",
      ["Loads/Edge forces", "'v=1'", "1/(y-y)", "must be finite"],
      {"Loads/Edge forces": "v=1: 0, 0, 1/(y-y)"})
+case("load_not_finite_on_one_rank",
+     ["Loads/Pressure", "'sqrt(1.9-x)'", "must be finite"],
+     {"Loads/Pressure": "sqrt(1.9-x)", "Mid-surface/Subdivisions": "8, 2"})
+case("edge_force_not_finite_on_one_rank",
+     ["Loads/Edge forces", "'1/(2-x)'", "must be finite"],
+     {"Loads/Edge forces": "u=1: 1/(2-x), 0, 0",
+      "Mid-surface/Subdivisions": "8, 2"})
+case("edge_force_without_edge", ["Loads/Edge forces", "names no place"],
+     {"Loads/Edge forces": ": 1, 0, 0"})
+case("load_overflows", ["quantity 'w'", "not a finite number"],
+     {"Constants": "a = 2, q = 1e308"})
 case("edge_moment_of_three", ["Loads/Edge moments", "'u=1'", "one expression"],
      {"Loads/Edge moments": "u=1: 0, 0, 1"})
 case("edge_moment_without_colon", ["Loads/Edge moments", "'u=1 5'", "no ':'"],
@@ -379,7 +416,7 @@ case("point_force_off_the_mesh",
      ["Loads/Point forces", "off the mid-surface", "nearest point",
       re.compile(r"\(\s*1,? 0.5,? -?0\)")],
      {"Loads/Point forces": "(1, 0.5, 1): 0, 0, 1"})
-case("point_force_two_components", ["Loads/Point forces", "'0, 1'", "2"],
+case("point_force_two_components", ["Loads/Point forces", "'0, 1'", "2 components"],
      {"Loads/Point forces": "(1, 0.5, 0): 0, 1"})
 
 # --- Quantities ------------------------------------------------------------
@@ -396,6 +433,12 @@ case("quantity_without_name", [QUANTITIES, "no name"],
      {QUANTITIES: "= energy"})
 case("quantity_more_words", [QUANTITIES, "'w'", "'of all'"],
      {QUANTITIES: "w = energy of all"})
+case("free_torus",
+     ["can move freely: rotation about (1, 0, 0) through (0, 0, 0); "
+      "rotation about (0, 1, 0) through (3, 0, 0); "
+      "rotation about (0, 0, 1) through (3, 0, 0)"],
+     {"Mid-surface/Surface": "torus", "Mid-surface/Subdivisions": "4",
+      EDGES: "", POINTS: "(3, 0, 0): fixed", QUANTITIES: ""})
 case("quantity_direction", [QUANTITIES, "'w'", "unknown direction 'Z'", "'z'"],
      {QUANTITIES: "w = displacement Z at (1, 0.5, 0)"})
 case("quantity_direction_zero", [QUANTITIES, "'w'", "no length"],
@@ -414,7 +457,7 @@ case("reference_zero", [QUANTITIES, "'w'", "reference", "0"],
      {QUANTITIES: "w = displacement z at (1, 0.5, 0) -> 0"})
 case("reference_malformed", [QUANTITIES, "'w'", "not a valid expression"],
      {QUANTITIES: "w = energy -> 1 +"})
-case("reference_empty", [QUANTITIES, "'w'", "is empty"],
+case("reference_empty", [QUANTITIES, "'w', the reference", "is empty"],
      {QUANTITIES: "w = energy ->"})
 case("error_without_exact_solution",
      [QUANTITIES, "'e'", "'L2 error'", "Exact solution/Displacement"],
@@ -428,6 +471,11 @@ case("exact_solution_not_finite",
       QUANTITIES: "e = L2 error"})
 
 # --- Command line ----------------------------------------------------------
+case("empty_file", ["can move freely"], prm="")
+case("no_parameter_file", ["line 1", "unknown statement"],
+     prm="\x7fELF\x01 nothing\n")
+case("unknown_short_option", ["unknown option '-x'", "--set"],
+     args=["{prm}", "-x"], code=2)
 case("file_missing", ["'nowhere.prm'", "doesn't exist"], prm=None,
      args=["nowhere.prm"])
 case("file_is_a_folder", ["'here'", "is a folder"], prm=None, args=["here"],

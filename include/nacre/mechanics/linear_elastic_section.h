@@ -74,6 +74,7 @@ namespace Nacre
     std::string youngs_modulus_text_ = "1";
     std::string thickness_text_      = "0.1";
     std::string density_text_        = "0";
+    std::string nu_text_             = "0.3";
     double      nu_                  = 0.3;
 
     Expression            youngs_modulus_;

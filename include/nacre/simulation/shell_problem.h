@@ -114,7 +114,8 @@ namespace Nacre
     warn_of_penalty(Log &log) const;
 
     void
-    solve_linear_system(const AffineConstraints<double> &constraints);
+    solve_linear_system(const AffineConstraints<double> &constraints,
+                        Log                             &log);
 
     MembraneStrain
     membrane_strain() const;

@@ -24,6 +24,18 @@ namespace dealii
 
 namespace Nacre
 {
+  /** How exact a solution of a linear system is. */
+  struct SolveAccuracy
+  {
+    /** Componentwise, see DirectSolver::solve(). */
+    double backward_error = 0.;
+    /**
+     * |dx| / |x| of the first step of refinement: what the condition number
+     * made of round-off; the digits of the solution are about -log10 of it.
+     */
+    double correction = 0.;
+  };
+
   /**
    * Sparse L D L^T of a symmetric matrix by MUMPS (SYM = 2) on any number of
    * ranks, without pivoting unless a pivot (nearly) vanishes by accident, as
@@ -57,14 +69,13 @@ namespace Nacre
     n_negative_pivots() const;
 
     /**
-     * Solve with iterative refinement, at most three steps, until the
+     * Solve with iterative refinement, one to three steps, until the
      * componentwise backward error max_i |r|_i / (|A||x| + |b|)_i stops
      * halving. (Rows whose denominator is round-off add |A_i|_1 |x|_max.)
      * The vectors are distributed as the matrix' rows, without ghosts; a
      * right-hand side that is not finite throws on all ranks.
-     * @return that backward error.
      */
-    double
+    SolveAccuracy
     solve(TrilinosWrappers::MPI::Vector       &x,
           const TrilinosWrappers::MPI::Vector &b) const;
 
