@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Tests of whole parameter files, by run_study.py.
 find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+get_filename_component(PRM_FOLDER ${CMAKE_CURRENT_LIST_DIR}/../prm ABSOLUTE)
 
 # nacre_study(NAME prm-file [SET parameter=value...] [RANKS n]
 #             [COMPARE_RANKS n...] [EXPECT expectation...])
@@ -22,8 +23,8 @@ function(nacre_study name prm)
     list(APPEND arguments --expect ${expectation})
   endforeach()
   add_test(NAME ${name} COMMAND ${PYTHON3}
-           ${CMAKE_SOURCE_DIR}/tests/run_study.py $<TARGET_FILE:nacre>
-           ${CMAKE_SOURCE_DIR}/prm/${prm} ${arguments})
+           ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_study.py $<TARGET_FILE:nacre>
+           ${PRM_FOLDER}/${prm} ${arguments})
   if(study_RANKS OR study_COMPARE_RANKS)
     set_tests_properties(${name} PROPERTIES PROCESSORS 2)
   endif()

@@ -112,7 +112,8 @@ class Expectation:
         self.any = bool(match[1])
         self.rows = "True" if match[2] in ("", "all") else match[2]
         self.condition = condition.strip()
-        tree = ast.parse(self.condition, mode="eval")
+        tree = parse(self.condition)
+        parse(self.rows)
         self.comparisons = [node for node in ast.walk(tree)
                             if isinstance(node, ast.Compare)]
         self.columns = sorted({node.id for node in ast.walk(tree)
@@ -155,7 +156,7 @@ class Expectation:
                 raise Failure(f"more rows than values in listed{values}")
             return values[int(row["step"])]
 
-        used = {node.id for node in ast.walk(ast.parse(expression, mode="eval"))
+        used = {node.id for node in ast.walk(parse(expression))
                 if isinstance(node, ast.Name)}
         names = dict(NAMES, at=at, order=order, listed=listed)
         for name in used - names.keys():
@@ -163,7 +164,10 @@ class Expectation:
                 raise Failure(f"no column '{name}'; there are: "
                               + ", ".join(row))
             names[name] = finite(name, row[name])
-        return eval(expression, {"__builtins__": {}}, names)
+        try:
+            return eval(expression, {"__builtins__": {}}, names)
+        except (ArithmeticError, KeyError, TypeError, ValueError) as error:
+            raise Failure(f"'{expression}': {error!r}") from error
 
     def holds(self, rows):
         """Check and print; whether the expectation is met."""
@@ -197,7 +201,15 @@ class Expectation:
         return ", ".join(values)
 
 
+def parse(expression):
+    try:
+        return ast.parse(expression, mode="eval")
+    except SyntaxError as error:
+        raise Failure(f"'{expression}' is not an expression") from error
+
+
 def describe(row):
+    """The row in a few words."""
     texts = [str(row[name]) if isinstance(row[name], str) else
              f"{row[name]:g}" for name in ("degree", "eta", "thickness", "dofs")]
     return "p {}, eta {}, h {}, {} dofs".format(*texts)

@@ -120,18 +120,18 @@ namespace Nacre
     {
       const std::string text =
         Text::trim(pattern.description(Patterns::PatternBase::Text));
-      const std::string begin = "A list of ";
-      const std::string middle =
-        " to " + std::to_string(Patterns::List::max_int_value) +
-        " elements where each element is [";
+      const std::string begin  = "A list of ";
+      const std::string middle = " to " +
+                                 std::to_string(Patterns::List::max_int_value) +
+                                 " elements where each element is [";
       const auto at = text.find(middle);
       if (text.rfind(begin, 0) != 0 || at == std::string::npos ||
           text.back() != ']')
         return text;
       const auto number = text.substr(begin.size(), at - begin.size());
       const auto inside = at + middle.size();
-      return "A list, separated by commas, of at least " + number + " of: " +
-             text.substr(inside, text.size() - inside - 1);
+      return "A list, separated by commas, of at least " + number +
+             " of: " + text.substr(inside, text.size() - inside - 1);
     }
 
     void
@@ -151,11 +151,10 @@ namespace Nacre
       const Path known = alternatives(parameter);
       AssertThrow(known.empty(),
                   ExcMessage(Text::unknown_name(where, "value", value, known)));
-      AssertThrow(
-        false,
-        ExcMessage(
-          where + ": the value '" + value + "' is not allowed. Allowed: " +
-          allowed_values(*pattern) + "."));
+      AssertThrow(false,
+                  ExcMessage(where + ": the value '" + value +
+                             "' is not allowed. Allowed: " +
+                             allowed_values(*pattern) + "."));
     }
 
     /** Checks a file line by line as ParameterHandler would read it. */

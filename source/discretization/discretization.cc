@@ -56,7 +56,8 @@ namespace Nacre
           {
             const auto gradient = fe.shape_grad(a, unit);
             for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              tangents[alpha] += gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
+              tangents[alpha] +=
+                gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
           }
         return tangents;
       }
@@ -114,11 +115,11 @@ namespace Nacre
 
   Discretization::Discretization(
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
-    const std::function<Point<spacedim>(
-      const Triangulation<dim, spacedim>::cell_iterator &,
-      const Point<dim> &)>                                     &position,
-    const unsigned int                                          degree,
-    const unsigned int                                          mapping_degree)
+    const std::function<
+      Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
+                      const Point<dim> &)> &position,
+    const unsigned int                      degree,
+    const unsigned int                      mapping_degree)
     : triangulation_(checked(std::move(triangulation)))
     , mapping_degree_(mapping_degree == 0 ? degree : mapping_degree)
     , scalar_fe_(degree)
@@ -128,14 +129,15 @@ namespace Nacre
     , geometry_dof_handler_(*triangulation_)
   {
     dof_handler_.distribute_dofs(fe_);
-    locally_owned_dofs_    = dof_handler_.locally_owned_dofs();
-    locally_relevant_dofs_ = DoFTools::extract_locally_relevant_dofs(dof_handler_);
+    locally_owned_dofs_ = dof_handler_.locally_owned_dofs();
+    locally_relevant_dofs_ =
+      DoFTools::extract_locally_relevant_dofs(dof_handler_);
     hanging_node_constraints_ = make_hanging_node_constraints(dof_handler_);
 
     node_dofs_.resize(fe_.n_dofs_per_cell());
     for (unsigned int i = 0; i < fe_.n_dofs_per_cell(); ++i)
       {
-        const auto [c, a]           = fe_.system_to_component_index(i);
+        const auto [c, a]            = fe_.system_to_component_index(i);
         node_dofs_[spacedim * a + c] = i;
       }
     build_geometry(position);
@@ -170,8 +172,9 @@ namespace Nacre
           for (unsigned int i = 0; i < dofs.size(); ++i)
             if (owned.is_element(dofs[i]))
               geometry_(dofs[i]) =
-                position(cell, geometry_fe_.unit_support_point(i))
-                  [geometry_fe_.system_to_component_index(i).first];
+                position(cell,
+                         geometry_fe_.unit_support_point(
+                           i))[geometry_fe_.system_to_component_index(i).first];
         }
     geometry_.update_ghost_values();
     // Without this, the faces of curved cells on both sides of a hanging edge
@@ -252,7 +255,10 @@ namespace Nacre
     const Triangulation<dim, spacedim>::active_cell_iterator &cell) const
   {
     const DoFHandler<dim, spacedim>::active_cell_iterator geometry_cell(
-      triangulation_.get(), cell->level(), cell->index(), &geometry_dof_handler_);
+      triangulation_.get(),
+      cell->level(),
+      cell->index(),
+      &geometry_dof_handler_);
     std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
     geometry_cell->get_dof_indices(dofs);
 
@@ -274,14 +280,16 @@ namespace Nacre
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const auto         nodes = node_positions(cell);
-          const double       size  = BoundingBox<spacedim>(nodes).side_length(0) +
+          const auto   nodes = node_positions(cell);
+          const double size  = BoundingBox<spacedim>(nodes).side_length(0) +
                               BoundingBox<spacedim>(nodes).side_length(1) +
                               BoundingBox<spacedim>(nodes).side_length(2);
-          const auto nearest = std::min_element(
-            nodes.begin(), nodes.end(), [&](const auto &x, const auto &y) {
-              return x.distance(point) < y.distance(point);
-            });
+          const auto nearest =
+            std::min_element(nodes.begin(),
+                             nodes.end(),
+                             [&](const auto &x, const auto &y) {
+                               return x.distance(point) < y.distance(point);
+                             });
           if (nearest->distance(point) - size >= best.distance)
             continue;
           const LocalSurface surface{scalar_fe_, nodes};
@@ -303,8 +311,8 @@ namespace Nacre
 
     const auto global =
       Utilities::MPI::min_max_avg(best.distance, communicator());
-    best.is_mine = (Utilities::MPI::this_mpi_process(communicator()) ==
-                    global.min_index);
+    best.is_mine =
+      (Utilities::MPI::this_mpi_process(communicator()) == global.min_index);
     const auto data = Utilities::MPI::broadcast(
       communicator(),
       std::make_pair(best.position,

@@ -38,8 +38,7 @@ namespace Nacre
       text.precision(4);
       text << '(';
       for (unsigned int c = 0; c < spacedim; ++c)
-        text << (c > 0 ? ", " : "")
-             << (std::abs(v[c]) < 1e-10 ? 0. : v[c]);
+        text << (c > 0 ? ", " : "") << (std::abs(v[c]) < 1e-10 ? 0. : v[c]);
       text << ')';
       return text.str();
     }
@@ -52,8 +51,11 @@ namespace Nacre
       lapack = A;
       std::pair<Vector<double>, FullMatrix<double>> result;
       const double bound = 1. + 2. * A.frobenius_norm();
-      lapack.compute_eigenvalues_symmetric(
-        -bound, bound, 0., result.first, result.second);
+      lapack.compute_eigenvalues_symmetric(-bound,
+                                           bound,
+                                           0.,
+                                           result.first,
+                                           result.second);
       return result;
     }
   } // namespace
@@ -113,7 +115,7 @@ namespace Nacre
                   // Faces 0, 1 run along xi2, faces 2, 3 along xi1.
                   const Vector3 normal = unit(cross_product_3d(a_1, a_2));
                   const Vector3 along  = face < 2 ? a_2 : a_1;
-                  Vector3 conormal = unit(cross_product_3d(along, normal));
+                  Vector3 conormal     = unit(cross_product_3d(along, normal));
                   if (conormal * (face < 2 ? a_1 : a_2) *
                         (face % 2 == 1 ? 1. : -1.) <
                       0.)
@@ -121,10 +123,9 @@ namespace Nacre
                   for (unsigned int c = 0; c < spacedim; ++c)
                     mine.push_back(dofs[node_dofs[spacedim * a + c]]);
                   mine.push_back(cell->face(face)->boundary_id());
-                  for (const auto &v :
-                       {Vector3(fe_values.quadrature_point(a)),
-                        normal,
-                        conormal})
+                  for (const auto &v : {Vector3(fe_values.quadrature_point(a)),
+                                        normal,
+                                        conormal})
                     mine.insert(mine.end(), v.begin_raw(), v.end_raw());
                 }
           }
@@ -186,9 +187,9 @@ namespace Nacre
                                        const types::boundary_id     id,
                                        const std::string &source) const
   {
-    const double        tolerance = 1e-8 * discretization_.extent().second;
-    Point<spacedim>     centre;
-    Vector3             conormal;
+    const double    tolerance = 1e-8 * discretization_.extent().second;
+    Point<spacedim> centre;
+    Vector3         conormal;
     std::vector<Point<spacedim>> points;
     for (const auto &node : nodes)
       if (node.id == id)
@@ -281,8 +282,8 @@ namespace Nacre
                       directions = {edge_node.conormal};
                       break;
                     case Direction::tangent:
-                      directions = {cross_product_3d(edge_node.normal,
-                                                     edge_node.conormal)};
+                      directions = {
+                        cross_product_3d(edge_node.normal, edge_node.conormal)};
                       break;
                     case Direction::plane_normal:
                       directions = {plane[condition.direction]};
@@ -294,8 +295,7 @@ namespace Nacre
                         for (unsigned int d = 1; d < spacedim; ++d)
                           if (std::abs(normal[d]) < std::abs(normal[c]))
                             c = d;
-                        const auto first =
-                          unit(axis(c) - normal[c] * normal);
+                        const auto first = unit(axis(c) - normal[c] * normal);
                         directions = {first, cross_product_3d(normal, first)};
                         break;
                       }
@@ -332,7 +332,7 @@ namespace Nacre
                     distance = nodes[a].distance(support.position);
                     for (unsigned int c = 0; c < spacedim; ++c)
                       {
-                        found[c] = dofs[node_dofs[spacedim * a + c]];
+                        found[c]            = dofs[node_dofs[spacedim * a + c]];
                         found[spacedim + c] = nodes[a][c];
                       }
                   }
@@ -347,7 +347,8 @@ namespace Nacre
             node.position[c] = found[spacedim + c];
           }
         std::ostringstream message;
-        message << support.source << ": no node lies there; the nearest one is ("
+        message << support.source
+                << ": no node lies there; the nearest one is ("
                 << node.position[0] << ", " << node.position[1] << ", "
                 << node.position[2] << ").";
         AssertThrow(best.min <= 1e-6 * discretization_.extent().second,
@@ -370,11 +371,11 @@ namespace Nacre
     std::vector<Component> basis;
     for (const auto &component : node.components)
       {
-        Vector3 rest      = component.direction;
-        double  value     = component.value;
-        double  magnitude = std::abs(value);
-        double  largest   = 0.;
-        const std::string *nearest = nullptr;
+        Vector3            rest      = component.direction;
+        double             value     = component.value;
+        double             magnitude = std::abs(value);
+        double             largest   = 0.;
+        const std::string *nearest   = nullptr;
         for (const auto &known : basis)
           {
             const double part = component.direction * known.direction;
@@ -389,9 +390,8 @@ namespace Nacre
           }
         // Mean conormals are no more precise than the geometry's derivatives.
         if (rest.norm() > 1e-3)
-          basis.push_back({rest / rest.norm(),
-                           value / rest.norm(),
-                           component.source});
+          basis.push_back(
+            {rest / rest.norm(), value / rest.norm(), component.source});
         else
           {
             std::ostringstream message;
@@ -399,7 +399,8 @@ namespace Nacre
                     << node.position[0] << ", " << node.position[1] << ", "
                     << node.position[2] << "): '" << *component.source
                     << "' against '" << *nearest << "'.";
-            AssertThrow(std::abs(value) <= 1e-3 * rest.norm() + 1e-8 * magnitude,
+            AssertThrow(std::abs(value) <=
+                          1e-3 * rest.norm() + 1e-8 * magnitude,
                         ExcMessage(message.str()));
           }
       }
@@ -410,10 +411,9 @@ namespace Nacre
       {
         unsigned int pivot = numbers::invalid_unsigned_int;
         for (unsigned int c = 0; c < spacedim; ++c)
-          if (!solved[c] &&
-              (pivot == numbers::invalid_unsigned_int ||
-               std::abs(basis[k].direction[c]) >
-                 std::abs(basis[k].direction[pivot]) + 1e-12))
+          if (!solved[c] && (pivot == numbers::invalid_unsigned_int ||
+                             std::abs(basis[k].direction[c]) >
+                               std::abs(basis[k].direction[pivot]) + 1e-12))
             pivot = c;
         solved[pivot] = true;
         basis[k].value /= basis[k].direction[pivot];

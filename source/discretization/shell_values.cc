@@ -164,10 +164,10 @@ namespace Nacre
           const auto &a_cov = frames_[q].a_cov;
           for (unsigned int c = 0; c < spacedim; ++c)
             {
-              const unsigned int i           = dof(a, c);
-              membrane_rows_(3 * q, i)       = a_cov[0][c] * dN[0];
-              membrane_rows_(3 * q + 1, i)   = a_cov[1][c] * dN[1];
-              membrane_rows_(3 * q + 2, i)   =
+              const unsigned int i         = dof(a, c);
+              membrane_rows_(3 * q, i)     = a_cov[0][c] * dN[0];
+              membrane_rows_(3 * q + 1, i) = a_cov[1][c] * dN[1];
+              membrane_rows_(3 * q + 2, i) =
                 a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
             }
         }
@@ -189,9 +189,9 @@ namespace Nacre
                 const auto &dN = tying_shapes_.gradient(k, a);
                 for (unsigned int c = 0; c < spacedim; ++c)
                   tying_rows_(k, dof(a, c)) =
-                    component < 2 ? jacobian[c][component] * dN[component] :
-                                    jacobian[c][0] * dN[1] +
-                                      jacobian[c][1] * dN[0];
+                    component < 2 ?
+                      jacobian[c][component] * dN[component] :
+                      jacobian[c][0] * dN[1] + jacobian[c][1] * dN[0];
               }
           }
         for (unsigned int q = 0; q < n_points(); ++q)
@@ -241,8 +241,11 @@ namespace Nacre
       {
         for (unsigned int subface = 0; subface < 2; ++subface)
           {
-            QProjector<dim>::project_to_subface(
-              cell, quadrature_, face, subface, points);
+            QProjector<dim>::project_to_subface(cell,
+                                                quadrature_,
+                                                face,
+                                                subface,
+                                                points);
             tables_[face].emplace_back(fe, points);
           }
         QProjector<dim>::project_to_face(cell, quadrature_, face, points);
@@ -268,8 +271,8 @@ namespace Nacre
                           const unsigned int   neighbor_face,
                           const unsigned int   neighbor_subface)
   {
-    interface_values_.reinit(
-      cell, face, subface, neighbor, neighbor_face, neighbor_subface);
+    interface_values_
+      .reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
     n_sides_ = 2;
     update({{face, neighbor_face}}, {{subface, neighbor_subface}});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/hinge_form.h>
 
@@ -38,8 +39,8 @@ namespace Nacre
           area += values_.JxW(q);
 
         // Rows m_nn sqrt(ds / D) on the whole boundary, in local dofs.
-        const unsigned int n_points  = edge_.n_points();
-        double             perimeter = 0.;
+        const unsigned int       n_points  = edge_.n_points();
+        double                   perimeter = 0.;
         LAPACKFullMatrix<double> moments(values_.n_dofs(),
                                          cell->n_faces() * n_points);
         for (const auto face : cell->face_indices())
@@ -80,9 +81,9 @@ namespace Nacre
         FullMatrix<double> stress_rows(rows.m(), rows.n());
         for (unsigned int q = 0; q < values_.n_points(); ++q)
           {
-            const auto D = values_.JxW(q) *
-                           section_.stiffness(values_.frame(q), values_.point(q))
-                             .bending;
+            const auto D =
+              values_.JxW(q) *
+              section_.stiffness(values_.frame(q), values_.point(q)).bending;
             for (unsigned int v = 0; v < 3; ++v)
               for (unsigned int w = 0; w < 3; ++w)
                 for (unsigned int i = 0; i < rows.n(); ++i)
@@ -113,14 +114,14 @@ namespace Nacre
         return values.size() > 0 ? values[values.size() - 1] : 0.;
       }
 
-      const SectionLaw     &section_;
-      ShellCellValues       values_;
-      ShellEdgeValues       edge_;
+      const SectionLaw &section_;
+      ShellCellValues   values_;
+      ShellEdgeValues   edge_;
       /** Lengths of curved edges, with a point more than the form's. */
       FE_Nothing<dim, spacedim>   fe_nothing_;
       FEFaceValues<dim, spacedim> perimeter_values_;
-      HingeSide             hinge_;
-      const Discretization &discretization_;
+      HingeSide                   hinge_;
+      const Discretization       &discretization_;
     };
   } // namespace
 
@@ -131,16 +132,20 @@ namespace Nacre
     , sizes_(discretization.triangulation().n_active_cells())
     , eigenvalues_(discretization.triangulation().n_active_cells())
   {
-    CellBound cell_bound(discretization, section);
-    for (const auto &cell : discretization.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          cell_bound.reinit(cell);
-          sizes_[cell->active_cell_index()]       = cell_bound.size;
-          eigenvalues_[cell->active_cell_index()] = cell_bound.eigenvalue;
-        }
+    run_on_all_ranks(discretization.communicator(), [&]() {
+      CellBound cell_bound(discretization, section);
+      for (const auto &cell :
+           discretization.dof_handler().active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            cell_bound.reinit(cell);
+            sizes_[cell->active_cell_index()]       = cell_bound.size;
+            eigenvalues_[cell->active_cell_index()] = cell_bound.eigenvalue;
+          }
+    });
 
-    for (const auto &cell : discretization.dof_handler().active_cell_iterators())
+    for (const auto &cell :
+         discretization.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto face : cell->face_indices())
           {
@@ -149,9 +154,10 @@ namespace Nacre
             double             lambda = eigenvalues_[k];
             if (!cell->at_boundary(face) && cell->neighbor(face)->is_active())
               {
-                const unsigned int n = cell->neighbor(face)->active_cell_index();
-                size                 = std::min(size, sizes_[n]);
-                lambda               = std::max(lambda, eigenvalues_[n]);
+                const unsigned int n =
+                  cell->neighbor(face)->active_cell_index();
+                size   = std::min(size, sizes_[n]);
+                lambda = std::max(lambda, eigenvalues_[n]);
               }
             bound_ = std::max(bound_, 0.5 * size * lambda);
           }

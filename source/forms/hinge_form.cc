@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mutation.h>
-
 #include <nacre/forms/hinge_form.h>
 #include <nacre/mechanics/shell_strain.h>
 
@@ -21,8 +20,8 @@ namespace Nacre
 
     // Components of the dyad nu nu, and of the moment it cuts out:
     // m_nn = nu . H_m rho . nu = (H_m nu nu) : rho.
-    const auto dyad = ShellStrain::dyad_of(frame, nu);
-    const auto H_nu = section.stiffness(frame, edge.point(q)).bending * dyad;
+    const auto   dyad = ShellStrain::dyad_of(frame, nu);
+    const auto   H_nu = section.stiffness(frame, edge.point(q)).bending * dyad;
     const double nu_1 = frame.a_con[0] * nu;
     const double nu_2 = frame.a_con[1] * nu;
 
@@ -35,8 +34,10 @@ namespace Nacre
         const auto &dN = shapes.gradient(q, a);
         rotation[a]    = sigma * (nu_1 * dN[0] + nu_2 * dN[1]);
         moment[a] =
-          sigma * (H_nu * ShellStrain::bending_of_shape_function(
-                            frame, dN, shapes.hessian(q, a)));
+          sigma *
+          (H_nu * ShellStrain::bending_of_shape_function(frame,
+                                                         dN,
+                                                         shapes.hessian(q, a)));
       }
   }
 
@@ -54,8 +55,7 @@ namespace Nacre
       {
         side_.reinit(edge, side, q, section);
         // jump = plus - minus
-        const double sign =
-          side == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.;
+        const double sign = side == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.;
         for (unsigned int a = 0; a < side_.rotation.size(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             {

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mutation.h>
-
 #include <nacre/forms/linear_kinematics.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -186,8 +185,7 @@ namespace Nacre
     const unsigned int n_points = edge.n_points();
     const bool         interior = (edge.n_sides() == 2);
     // The mirror image of a boundary cell doubles the penalty.
-    const double factor =
-      interior ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
+    const double factor = interior ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
 
     if (terms.wants_tangent)
       {
@@ -201,11 +199,11 @@ namespace Nacre
         const auto  &moment = hinge_.mean_moment();
         const double dx     = edge.JxW(q);
 
-        const double penalty_flux = NACRE_MUTABLE(
-          penalty_sign, 1., -1.) *
+        const double penalty_flux = NACRE_MUTABLE(penalty_sign, 1., -1.) *
                                     factor * penalty * hinge_.stiffness() * dx;
-        const double symmetry_flux    = NACRE_MUTABLE(symmetry_sign, -dx, dx);
-        const double consistency_flux = NACRE_MUTABLE(consistency_sign, -dx, dx);
+        const double symmetry_flux = NACRE_MUTABLE(symmetry_sign, -dx, dx);
+        const double consistency_flux =
+          NACRE_MUTABLE(consistency_sign, -dx, dx);
 
         if (terms.wants_tangent)
           {
@@ -217,7 +215,8 @@ namespace Nacre
               {
                 v_jump[i]   = jump[i];
                 v_moment[i] = moment[i];
-                u_jump[i] = penalty_flux * jump[i] + consistency_flux * moment[i];
+                u_jump[i] =
+                  penalty_flux * jump[i] + consistency_flux * moment[i];
                 u_moment[i] = symmetry_flux * jump[i];
               }
           }
@@ -235,7 +234,8 @@ namespace Nacre
           {
             for (unsigned int i = 0; i < n; ++i)
               terms.residual[i] +=
-                (penalty_flux * u_jump + consistency_flux * u_moment) * jump[i] +
+                (penalty_flux * u_jump + consistency_flux * u_moment) *
+                  jump[i] +
                 symmetry_flux * u_jump * moment[i];
             terms.energies.edge +=
               0.5 * penalty_flux * u_jump * u_jump +

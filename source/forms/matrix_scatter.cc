@@ -41,17 +41,22 @@ namespace Nacre
   {
     if (!is_direct(dofs))
       {
-        constraints_.distribute_local_to_global(
-          local_matrix, local_vector, dofs, matrix_, right_hand_side_);
+        constraints_.distribute_local_to_global(local_matrix,
+                                                local_vector,
+                                                dofs,
+                                                matrix_,
+                                                right_hand_side_);
         return;
       }
     for (const auto &[row, i] : columns_)
       {
-        int     length  = 0;
-        double *values  = nullptr;
-        int    *indices = nullptr;
-        const int error = matrix_.trilinos_matrix().ExtractMyRowView(
-          row, length, values, indices);
+        int       length  = 0;
+        double   *values  = nullptr;
+        int      *indices = nullptr;
+        const int error   = matrix_.trilinos_matrix().ExtractMyRowView(row,
+                                                                     length,
+                                                                     values,
+                                                                     indices);
         (void)error;
         Assert(error == 0, ExcTrilinosError(error));
         const double *local = &local_matrix(i, 0);

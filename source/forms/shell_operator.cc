@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/forms/linear_kinematics.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
@@ -10,7 +11,6 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/lac/sparsity_tools.h>
-
 #include <deal.II/meshworker/mesh_loop.h>
 
 #include <sstream>
@@ -107,11 +107,11 @@ namespace Nacre
     }
   } // namespace
 
-  ShellOperator::ShellOperator(const Discretization     &discretization,
-                               const SectionLaw         &section,
-                               const BoundaryConditions &boundary_conditions,
-                               const Loads              &loads,
-                               const MembraneStrain      membrane_strain,
+  ShellOperator::ShellOperator(const Discretization        &discretization,
+                               const SectionLaw            &section,
+                               const BoundaryConditions    &boundary_conditions,
+                               const Loads                 &loads,
+                               const MembraneStrain         membrane_strain,
                                const std::optional<double> &eta)
     : discretization_(discretization)
     , section_(section)
@@ -227,11 +227,10 @@ namespace Nacre
   {
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
-    const auto cell_worker = [&](const Iterator &cell,
-                                 ScratchData    &scratch,
-                                 CopyData       &copy) {
-      this->cell_worker(cell, u, scratch, copy);
-    };
+    const auto cell_worker =
+      [&](const Iterator &cell, ScratchData &scratch, CopyData &copy) {
+        this->cell_worker(cell, u, scratch, copy);
+      };
     const auto face_worker = [&](const Iterator    &cell,
                                  const unsigned int f,
                                  const unsigned int sf,
@@ -259,18 +258,21 @@ namespace Nacre
 
     CopyData copy;
     copy.wants_tangent = wants_tangent;
-    MeshWorker::mesh_loop(discretization_.dof_handler().begin_active(),
-                          discretization_.dof_handler().end(),
-                          cell_worker,
-                          copier,
-                          ScratchData(discretization_, *kinematics_),
-                          copy,
-                          MeshWorker::assemble_own_cells |
-                            MeshWorker::assemble_own_interior_faces_once |
-                            MeshWorker::assemble_ghost_faces_once |
-                            MeshWorker::assemble_boundary_faces,
-                          boundary_worker,
-                          face_worker);
+    // The user's expressions may be undefined on the cells of one rank only.
+    run_on_all_ranks(discretization_.communicator(), [&]() {
+      MeshWorker::mesh_loop(discretization_.dof_handler().begin_active(),
+                            discretization_.dof_handler().end(),
+                            cell_worker,
+                            copier,
+                            ScratchData(discretization_, *kinematics_),
+                            copy,
+                            MeshWorker::assemble_own_cells |
+                              MeshWorker::assemble_own_interior_faces_once |
+                              MeshWorker::assemble_ghost_faces_once |
+                              MeshWorker::assemble_boundary_faces,
+                            boundary_worker,
+                            face_worker);
+    });
   }
 
   void
@@ -425,7 +427,8 @@ namespace Nacre
                   terms.reinit(edge.n_dofs());
                   extract(&u, edge.dof_indices(), scratch.u);
                   scratch.kinematics->add_rotation_terms(edge,
-                                                         penalty_.boundary(cell),
+                                                         penalty_.boundary(
+                                                           cell),
                                                          rotation,
                                                          scratch.u,
                                                          terms);
@@ -436,8 +439,8 @@ namespace Nacre
                       Tensor<1, spacedim> force;
                       for (unsigned int c = 0; c < spacedim; ++c)
                         force[c] = terms.residual[edge.dof(0, a, c)];
-                      sum += cross_product_3d(Tensor<1, spacedim>(nodes[a]),
-                                              force);
+                      sum +=
+                        cross_product_3d(Tensor<1, spacedim>(nodes[a]), force);
                     }
                 }
       }
@@ -449,7 +452,8 @@ namespace Nacre
   {
     ShellEdgeValues edge(discretization_);
     bool            consistent = true;
-    for (const auto &cell : discretization_.dof_handler().active_cell_iterators())
+    for (const auto &cell :
+         discretization_.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto f : cell->face_indices())
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&

@@ -2,22 +2,31 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mutation.h>
-
 #include <nacre/mechanics/linear_elastic_section.h>
+
+#include <sstream>
 
 namespace Nacre
 {
   namespace
   {
+    /** To print also the tiny numbers that std::to_string makes 0. */
+    std::string
+    to_text(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
+
     double
     positive(const double value, const char *what, const Point<3> &point)
     {
       AssertThrow(value > 0.,
                   ExcMessage("Section/" + std::string(what) + ": " +
-                             std::to_string(value) + " at the point (" +
-                             std::to_string(point[0]) + ", " +
-                             std::to_string(point[1]) + ", " +
-                             std::to_string(point[2]) +
+                             to_text(value) + " at the point (" +
+                             to_text(point[0]) + ", " + to_text(point[1]) +
+                             ", " + to_text(point[2]) +
                              "); it must be positive."));
       return value;
     }
@@ -49,12 +58,11 @@ namespace Nacre
   {
     nu_ = evaluate_number(nu_text_, "Section/Poisson's ratio", constants);
     AssertThrow(nu_ > -1. && nu_ < 0.5,
-                ExcMessage("Section/Poisson's ratio: " + std::to_string(nu_) +
+                ExcMessage("Section/Poisson's ratio: " + to_text(nu_) +
                            "; it must be larger than -1 and smaller than "
                            "0.5."));
-    youngs_modulus_ = Expression(youngs_modulus_text_,
-                                 "Section/Young's modulus",
-                                 constants);
+    youngs_modulus_ =
+      Expression(youngs_modulus_text_, "Section/Young's modulus", constants);
     thickness_ = Expression(thickness_text_, "Section/Thickness", constants);
     density_   = Expression(density_text_, "Section/Density", constants);
     // Constants are checked at once, expressions at the points of use.
@@ -105,7 +113,7 @@ namespace Nacre
   {
     const double value = density_(point);
     AssertThrow(value >= 0.,
-                ExcMessage("Section/Density: " + std::to_string(value) +
+                ExcMessage("Section/Density: " + to_text(value) +
                            "; it must not be negative."));
     return value;
   }

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
-
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/quantities_of_interest.h>
@@ -38,12 +37,12 @@ namespace Nacre
       for (unsigned int c = 0; c < spacedim; ++c)
         if (text == std::string(1, "xyz"[c]))
           return axis(c);
-      AssertThrow(!text.empty() && text.front() == '(',
-                  ExcMessage(
-                    Text::unknown_name(where,
-                                       "direction",
-                                       text,
-                                       {"x", "y", "z", "normal", "(a, b, c)"})));
+      AssertThrow(
+        !text.empty() && text.front() == '(',
+        ExcMessage(Text::unknown_name(where,
+                                      "direction",
+                                      text,
+                                      {"x", "y", "z", "normal", "(a, b, c)"})));
       const Vector3 direction = evaluate_point(text, where, constants);
       AssertThrow(direction.norm() > 0.,
                   ExcMessage(where + ": the direction " + text +
@@ -99,8 +98,7 @@ namespace Nacre
               {
                 Vector3 u;
                 for (unsigned int c = 0; c < spacedim; ++c)
-                  u[c] =
-                    shell.displacement(dofs[node_dofs[spacedim * a + c]]);
+                  u[c] = shell.displacement(dofs[node_dofs[spacedim * a + c]]);
                 maximum = std::max(maximum, u.norm());
               }
           }
@@ -112,14 +110,14 @@ namespace Nacre
      * of the nodes of an edge, hanging nodes following.
      */
     double
-    virtual_work(const SolvedShell         &shell,
-                 const types::boundary_id   id,
+    virtual_work(const SolvedShell       &shell,
+                 const types::boundary_id id,
                  const std::function<Vector3(const Point<spacedim> &)>
                    &virtual_displacement)
     {
-      const auto &discretization = shell.discretization;
-      const auto &node_dofs      = discretization.node_dofs();
-      const auto &fe             = discretization.scalar_fe();
+      const auto                   &discretization = shell.discretization;
+      const auto                   &node_dofs      = discretization.node_dofs();
+      const auto                   &fe             = discretization.scalar_fe();
       TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
                                       discretization.communicator());
       std::vector<types::global_dof_index> dofs(node_dofs.size());
@@ -192,8 +190,8 @@ namespace Nacre
         for (std::size_t k = 0; k < text.size(); ++k)
           {
             depth += (text[k] == '(') - (text[k] == ')');
-            if (depth == 0 && text.compare(k, word.size() + 2,
-                                           " " + word + " ") == 0)
+            if (depth == 0 &&
+                text.compare(k, word.size() + 2, " " + word + " ") == 0)
               {
                 const std::string before = Text::trim(text.substr(0, k));
                 text = Text::trim(text.substr(k + word.size() + 2));
@@ -241,13 +239,32 @@ namespace Nacre
   {
     const std::string parameter = "Quantities/Quantities";
     quantities_.clear();
-    std::set<std::string> names;
+    const std::vector<std::string> column_names = {"element",
+                                                   "degree",
+                                                   "eta",
+                                                   "thickness",
+                                                   "cells",
+                                                   "dofs",
+                                                   "ratio",
+                                                   "rate",
+                                                   "setup_s",
+                                                   "assembly_s",
+                                                   "solve_s"};
+    std::set<std::string>          names;
     for (const auto &entry : Text::split(text_, ';', parameter))
       {
         const auto [name, definition] = Text::key_and_value(entry);
         AssertThrow(!definition.empty(),
                     ExcMessage(parameter + ": '" + entry +
                                "' is not of the form 'name = kind'."));
+        AssertThrow(!name.empty(),
+                    ExcMessage(parameter + ": '" + entry +
+                               "' has no name before '='."));
+        AssertThrow(std::find(column_names.begin(), column_names.end(), name) ==
+                      column_names.end(),
+                    ExcMessage(parameter + ": '" + name +
+                               "' is another column of the table; choose "
+                               "another name."));
         AssertThrow(names.insert(name).second,
                     ExcMessage(parameter + ": two quantities are named '" +
                                name + "'."));
@@ -255,11 +272,13 @@ namespace Nacre
         Quantity          quantity;
         quantity.name = name;
 
-        const auto  arrow = definition.find("->");
-        Phrase      phrase{Text::trim(definition.substr(0, arrow)), where};
+        const auto arrow = definition.find("->");
+        Phrase     phrase{Text::trim(definition.substr(0, arrow)), where};
         if (arrow != std::string::npos)
-          quantity.reference = evaluate_number(
-            Text::trim(definition.substr(arrow + 2)), where, constants);
+          quantity.reference =
+            evaluate_number(Text::trim(definition.substr(arrow + 2)),
+                            where + ", the reference",
+                            constants);
         AssertThrow(!quantity.reference || *quantity.reference != 0.,
                     ExcMessage(where + ": the reference is 0, so that there "
                                        "is no ratio to it."));
@@ -325,10 +344,9 @@ namespace Nacre
             const auto id =
               midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"),
                                  where);
-            const auto origin =
-              phrase.text.empty() ?
-                Point<spacedim>() :
-                evaluate_point(phrase.text, where, constants);
+            const auto origin = phrase.text.empty() ?
+                                  Point<spacedim>() :
+                                  evaluate_point(phrase.text, where, constants);
             phrase.text.clear();
             if (is_moment)
               quantity.evaluate = [=](const SolvedShell &shell) {
@@ -343,8 +361,10 @@ namespace Nacre
           }
         else
           AssertThrow(false,
-                      ExcMessage(Text::unknown_name(
-                        where, "kind of quantity", kind_text, kinds())));
+                      ExcMessage(Text::unknown_name(where,
+                                                    "kind of quantity",
+                                                    kind_text,
+                                                    kinds())));
         AssertThrow(phrase.text.empty(),
                     ExcMessage(where + ": '" + phrase.text +
                                "' after the kind of quantity is not "

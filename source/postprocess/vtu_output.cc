@@ -10,7 +10,12 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <memory>
 
 namespace Nacre
 {

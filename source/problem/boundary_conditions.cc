@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
-
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/midsurface.h>
 
@@ -73,8 +72,8 @@ namespace Nacre
   std::vector<std::string>
   BoundaryConditions::condition_names()
   {
-    std::vector<std::string> names = {
-      "free", "fixed", "clamped", "symmetry", "diaphragm", "rotation"};
+    std::vector<std::string> names =
+      {"free", "fixed", "clamped", "symmetry", "diaphragm", "rotation"};
     for (const auto &component : component_names)
       names.push_back(component.first);
     return names;
@@ -104,7 +103,8 @@ namespace Nacre
         if (item == "free")
           return;
         if (item == "fixed" || item == "clamped")
-          for (const auto direction : {Direction::x, Direction::y, Direction::z})
+          for (const auto direction :
+               {Direction::x, Direction::y, Direction::z})
             add(direction);
         else if (item == "symmetry")
           add(Direction::plane_normal);
@@ -116,7 +116,8 @@ namespace Nacre
             AssertThrow(std::find(names.begin(), names.end(), key) ==
                           names.end(),
                         ExcMessage(where + ": '" + item +
-                                   "' needs a value: write '" + key + " = 0'."));
+                                   "' needs a value: write '" + key +
+                                   " = 0'."));
             AssertThrow(false,
                         ExcMessage(
                           Text::unknown_name(where, "condition", item, names)));

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
-
 #include <nacre/problem/loads.h>
 #include <nacre/problem/midsurface.h>
 
@@ -67,8 +66,8 @@ namespace Nacre
   void
   Loads::prepare(const Midsurface &midsurface, const Constants &constants)
   {
-    force_ = VectorExpression(force_text_, "Loads/Force per area", constants);
-    gravity_  = VectorExpression(gravity_text_, "Loads/Gravity", constants);
+    force_   = VectorExpression(force_text_, "Loads/Force per area", constants);
+    gravity_ = VectorExpression(gravity_text_, "Loads/Gravity", constants);
     pressure_ = Expression(pressure_text_, "Loads/Pressure", constants);
 
     const auto unique = [](const bool inserted, const std::string &where) {
@@ -78,11 +77,12 @@ namespace Nacre
     for_each_entry(edge_forces_text_,
                    "Loads/Edge forces",
                    [&](const auto &edge, const auto &value, const auto &where) {
-                     unique(edge_forces_
-                              .emplace(midsurface.edge_id(edge, where),
-                                       VectorExpression(value, where, constants))
-                              .second,
-                            where);
+                     unique(
+                       edge_forces_
+                         .emplace(midsurface.edge_id(edge, where),
+                                  VectorExpression(value, where, constants))
+                         .second,
+                       where);
                    });
     edge_moments_.clear();
     for_each_entry(edge_moments_text_,
@@ -95,14 +95,14 @@ namespace Nacre
                             where);
                    });
     point_forces_.clear();
-    for_each_entry(point_forces_text_,
-                   "Loads/Point forces",
-                   [&](const auto &point, const auto &value, const auto &where) {
-                     point_forces_.push_back(
-                       {evaluate_point(point, where, constants),
-                        evaluate_point(value, where, constants),
-                        where});
-                   });
+    for_each_entry(
+      point_forces_text_,
+      "Loads/Point forces",
+      [&](const auto &point, const auto &value, const auto &where) {
+        point_forces_.push_back({evaluate_point(point, where, constants),
+                                 evaluate_point(value, where, constants),
+                                 where});
+      });
   }
 
   bool
@@ -116,7 +116,8 @@ namespace Nacre
                         const Tensor<1, 3> &t0,
                         const double        area_density) const
   {
-    return force_(point) + area_density * gravity_(point) + pressure_(point) * t0;
+    return force_(point) + area_density * gravity_(point) +
+           pressure_(point) * t0;
   }
 
   bool

@@ -21,13 +21,13 @@ namespace Nacre
       name = Text::trim(name);
       for (std::size_t i = name.find('='); i != std::string::npos;
            i             = name.find('=', i))
-      {
-        while (i > 0 && name[i - 1] == ' ')
-          name.erase(--i, 1);
-        while (i + 1 < name.size() && name[i + 1] == ' ')
-          name.erase(i + 1, 1);
-        ++i;
-      }
+        {
+                      while (i > 0 && name[i - 1] == ' ')
+            name.erase(--i, 1);
+          while (i + 1 < name.size() && name[i + 1] == ' ')
+            name.erase(i + 1, 1);
+          ++i;
+        }
       return name;
     }
 
@@ -67,16 +67,16 @@ namespace Nacre
                   "The same for the lines across v. Units: none");
 
     for (const SurfaceKind &kind : surface_kinds())
-    {
-      enter_subsection(kind.name);
-      for (const SurfaceParameter &parameter : kind.parameters)
       {
-        std::string &value = values_[kind.name][parameter.name];
-        value              = parameter.default_value;
-        add_parameter(parameter.name, value, parameter.documentation);
+        enter_subsection(kind.name);
+        for (const SurfaceParameter &parameter : kind.parameters)
+          {
+            std::string &value = values_[kind.name][parameter.name];
+            value              = parameter.default_value;
+            add_parameter(parameter.name, value, parameter.documentation);
+          }
+        leave_subsection();
       }
-      leave_subsection();
-    }
   }
 
 
@@ -126,12 +126,12 @@ namespace Nacre
     SubCellData boundary;
     for (const ParametricSurface::BoundaryLine &line :
          surface_->boundary_lines())
-    {
-      CellData<1> data;
-      data.vertices.assign(line.vertices.begin(), line.vertices.end());
-      data.boundary_id = line.edge;
-      boundary.boundary_lines.push_back(data);
-    }
+      {
+        CellData<1> data;
+        data.vertices.assign(line.vertices.begin(), line.vertices.end());
+        data.boundary_id = line.edge;
+        boundary.boundary_lines.push_back(data);
+      }
 
     auto triangulation =
       std::make_unique<parallel::distributed::Triangulation<dim, spacedim>>(
@@ -160,15 +160,15 @@ namespace Nacre
     Point<dim> coarse_unit = unit;
     auto       ancestor    = cell;
     while (ancestor->level() > 0)
-    {
-      const auto   parent = ancestor->parent();
-      unsigned int child  = 0;
-      while (parent->child_index(child) != ancestor->index())
-        ++child;
-      coarse_unit[0] = 0.5 * (child % 2 + coarse_unit[0]);
-      coarse_unit[1] = 0.5 * (child / 2 + coarse_unit[1]);
-      ancestor       = parent;
-    }
+      {
+        const auto   parent = ancestor->parent();
+        unsigned int child  = 0;
+        while (parent->child_index(child) != ancestor->index())
+          ++child;
+        coarse_unit[0] = 0.5 * (child % 2 + coarse_unit[0]);
+        coarse_unit[1] = 0.5 * (child / 2 + coarse_unit[1]);
+        ancestor       = parent;
+      }
     return surface_->position(ancestor->index(), coarse_unit);
   }
 
@@ -188,15 +188,15 @@ namespace Nacre
     const std::string        wanted = without_spaces(name);
     std::vector<std::string> known;
     for (unsigned int e = 0; e < surface_->edges().size(); ++e)
-    {
-      const SurfaceDescription::Edge &edge = surface_->edges()[e];
-      if (wanted == edge.name ||
-          std::find(edge.aliases.begin(), edge.aliases.end(), wanted) !=
-            edge.aliases.end())
-        return e;
-      known.push_back(edge.name);
-      known.insert(known.end(), edge.aliases.begin(), edge.aliases.end());
-    }
+      {
+        const SurfaceDescription::Edge &edge = surface_->edges()[e];
+        if (wanted == edge.name ||
+            std::find(edge.aliases.begin(), edge.aliases.end(), wanted) !=
+              edge.aliases.end())
+          return e;
+        known.push_back(edge.name);
+        known.insert(known.end(), edge.aliases.begin(), edge.aliases.end());
+      }
     AssertThrow(!known.empty(),
                 ExcMessage(where + ": unknown edge '" + wanted +
                            "': the surface '" + Text::trim(surface_name_) +

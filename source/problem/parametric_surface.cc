@@ -131,19 +131,19 @@ namespace Nacre
     GridTools::consistently_order_cells(data);
 
     for (unsigned int k = 0; k < data.size(); ++k)
-    {
-      const SurfaceDescription::Cell old  = description_.cells[k];
-      SurfaceDescription::Cell      &cell = description_.cells[k];
-      for (unsigned int i = 0; i < 4; ++i)
       {
-        const auto found = std::find(old.vertices.begin(),
-                                     old.vertices.end(),
-                                     data[k].vertices[i]);
-        Assert(found != old.vertices.end(), ExcInternalError());
-        cell.vertices[i] = *found;
-        cell.chart[i]    = old.chart[found - old.vertices.begin()];
+        const SurfaceDescription::Cell old  = description_.cells[k];
+        SurfaceDescription::Cell      &cell = description_.cells[k];
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            const auto found = std::find(old.vertices.begin(),
+                                         old.vertices.end(),
+                                         data[k].vertices[i]);
+            Assert(found != old.vertices.end(), ExcInternalError());
+            cell.vertices[i] = *found;
+            cell.chart[i]    = old.chart[found - old.vertices.begin()];
+          }
       }
-    }
   }
 
 
@@ -154,41 +154,42 @@ namespace Nacre
       lines;
     for (unsigned int k = 0; k < description_.cells.size(); ++k)
       for (const auto &ends : line_corners)
-      {
-        const auto &vertices = description_.cells[k].vertices;
-        CellLine    line{k, {{ends[0], ends[1]}}, 1};
-        if (vertices[ends[0]] > vertices[ends[1]])
-          line = {k, {{ends[1], ends[0]}}, -1};
-        lines[{vertices[line.corners[0]], vertices[line.corners[1]]}].push_back(
-          line);
-      }
+        {
+          const auto &vertices = description_.cells[k].vertices;
+          CellLine    line{k, {{ends[0], ends[1]}}, 1};
+          if (vertices[ends[0]] > vertices[ends[1]])
+            line = {k, {{ends[1], ends[0]}}, -1};
+          lines[{vertices[line.corners[0]], vertices[line.corners[1]]}]
+            .push_back(line);
+        }
 
     for (const auto &[ends, sides] : lines)
       if (sides.size() == 1)
-      {
-        const auto &chart = description_.cells[sides[0].cell].chart;
-        const auto  edge =
-          std::find_if(description_.edges.begin(),
-                       description_.edges.end(),
-                       [&](const SurfaceDescription::Edge &edge) {
-                         return edge.contains(chart[sides[0].corners[0]]) &&
-                                edge.contains(chart[sides[0].corners[1]]);
-                       });
-        AssertThrow(edge != description_.edges.end(),
-                    ExcMessage("A boundary line of the surface belongs to "
-                               "none of its named edges."));
-        boundary_lines_.push_back(
-          {{{ends.first, ends.second}},
-           static_cast<unsigned int>(edge - description_.edges.begin())});
-      }
+        {
+          const auto &chart = description_.cells[sides[0].cell].chart;
+          const auto  edge =
+            std::find_if(description_.edges.begin(),
+                         description_.edges.end(),
+                         [&](const SurfaceDescription::Edge &edge) {
+                           return edge.contains(chart[sides[0].corners[0]]) &&
+                                  edge.contains(chart[sides[0].corners[1]]);
+                         });
+          AssertThrow(edge != description_.edges.end(),
+                      ExcMessage("A boundary line of the surface belongs to "
+                                 "none of its named edges."));
+          boundary_lines_.push_back(
+            {{{ends.first, ends.second}},
+             static_cast<unsigned int>(edge - description_.edges.begin())});
+        }
       else
-      {
-        // deal.II would accept both silently.
-        AssertThrow(sides.size() == 2 && sides[0].side == -sides[1].side,
-                    ExcMessage("The cells of the surface don't have one "
-                               "orientation, or more than two share a line."));
-        interior_lines_.emplace_back(sides[0], sides[1]);
-      }
+        {
+          // deal.II would accept both silently.
+          AssertThrow(sides.size() == 2 && sides[0].side == -sides[1].side,
+                      ExcMessage(
+                        "The cells of the surface don't have one "
+                        "orientation, or more than two share a line."));
+          interior_lines_.emplace_back(sides[0], sides[1]);
+        }
   }
 
 
@@ -222,55 +223,58 @@ namespace Nacre
     const double step      = 1e-5;
     const double tolerance = 1e-7;
 
-    const std::vector<Point<2>> points = sample_points();
-    std::vector<double>         jacobians(points.size());
+    const std::vector<Point<2>>              points = sample_points();
+    std::vector<double>                      jacobians(points.size());
     std::vector<std::array<Tensor<1, 3>, 2>> all_tangents(points.size());
     for (unsigned int k = 0; k < description_.cells.size(); ++k)
-    {
-      std::array<double, 2> longest{{0., 0.}};
-      for (unsigned int q = 0; q < points.size(); ++q)
       {
-        const Point<3> x0 = position(k, points[q]);
-        AssertThrow(is_finite(x0),
-                    ExcMessage(where + ": the position at " +
-                               describe(k, points[q]) + " isn't finite."));
-        std::array<Tensor<1, 3>, 2> tangents;
-        for (unsigned int a = 0; a < 2; ++a)
-        {
-          const double inward = points[q][a] < 0.5 ? step : -step;
-          Point<2>     p1 = points[q], p2 = points[q];
-          p1[a] += inward;
-          p2[a] += 2. * inward;
-          tangents[a] = (4. * (position(k, p1) - x0) - (position(k, p2) - x0)) /
-                        (2. * inward);
-          longest[a] = std::max(longest[a], tangents[a].norm());
-        }
-        jacobians[q] = cross_product_3d(tangents[0], tangents[1]).norm();
-        all_tangents[q] = tangents;
+        std::array<double, 2> longest{{0., 0.}};
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            const Point<3> x0 = position(k, points[q]);
+            AssertThrow(is_finite(x0),
+                        ExcMessage(where + ": the position at " +
+                                   describe(k, points[q]) + " isn't finite."));
+            std::array<Tensor<1, 3>, 2> tangents;
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                const double inward = points[q][a] < 0.5 ? step : -step;
+                Point<2>     p1 = points[q], p2 = points[q];
+                p1[a] += inward;
+                p2[a] += 2. * inward;
+                tangents[a] =
+                  (4. * (position(k, p1) - x0) - (position(k, p2) - x0)) /
+                  (2. * inward);
+                longest[a] = std::max(longest[a], tangents[a].norm());
+              }
+            jacobians[q]    = cross_product_3d(tangents[0], tangents[1]).norm();
+            all_tangents[q] = tangents;
+          }
+        for (unsigned int q = 0; q < points.size(); ++q)
+          AssertThrow(jacobians[q] > tolerance * longest[0] * longest[1],
+                      ExcMessage(
+                        where + ": the surface is degenerate at " +
+                        describe(k, points[q]) +
+                        ": its area Jacobian |x,u x x,v| is zero there. Every "
+                        "point needs two independent tangents (no poles, no "
+                        "sides shrunk to a point or a line)."));
+        // Along a line of Gauss points the surface must not turn back.
+        for (unsigned int q = 0; q < n_samples * n_samples; ++q)
+          for (unsigned int a = 0; a < 2; ++a)
+            {
+              if ((a == 0 ? q % n_samples : q / n_samples) + 1 == n_samples)
+                continue;
+              const unsigned int  next = q + (a == 0 ? 1 : n_samples);
+              const Tensor<1, 3> &t    = all_tangents[q][a],
+                                 &s    = all_tangents[next][a];
+              AssertThrow(t * s > -0.9 * t.norm() * s.norm(),
+                          ExcMessage(where +
+                                     ": the surface is degenerate: it "
+                                     "turns back on itself between " +
+                                     describe(k, points[q]) + " and " +
+                                     describe(k, points[next]) + "."));
+            }
       }
-      for (unsigned int q = 0; q < points.size(); ++q)
-        AssertThrow(jacobians[q] > tolerance * longest[0] * longest[1],
-                    ExcMessage(
-                      where + ": the surface is degenerate at " +
-                      describe(k, points[q]) +
-                      ": its area Jacobian |x,u x x,v| is zero there. Every "
-                      "point needs two independent tangents (no poles, no "
-                      "sides shrunk to a point or a line)."));
-      // Along a line of Gauss points the surface must not turn back.
-      for (unsigned int q = 0; q < n_samples * n_samples; ++q)
-        for (unsigned int a = 0; a < 2; ++a)
-        {
-          if ((a == 0 ? q % n_samples : q / n_samples) + 1 == n_samples)
-            continue;
-          const unsigned int  next = q + (a == 0 ? 1 : n_samples);
-          const Tensor<1, 3> &t = all_tangents[q][a], &s = all_tangents[next][a];
-          AssertThrow(t * s > -0.9 * t.norm() * s.norm(),
-                      ExcMessage(where + ": the surface is degenerate: it "
-                                         "turns back on itself between " +
-                                 describe(k, points[q]) + " and " +
-                                 describe(k, points[next]) + "."));
-        }
-    }
   }
 
 
@@ -293,19 +297,19 @@ namespace Nacre
 
     for (const auto &[first, second] : interior_lines_)
       for (const double t : {0., 0.3, 0.5, 0.7, 1.})
-      {
-        const Point<3> a = line_point(first, t);
-        const Point<3> b = line_point(second, t);
-        if (a.distance(b) <= 1e-9 * extent)
-          continue;
-        std::ostringstream text;
-        const Point<2>     unit((1. - t) * unit_corner(second.corners[0]) +
-                            t * unit_corner(second.corners[1]));
-        text << where << ": the closed surface doesn't meet itself: at "
-             << describe(second.cell, unit) << " it is at (" << b
-             << "), on the other side of the seam at (" << a
-             << "). Give the range a full period, or choose Closed = none.";
-        AssertThrow(false, ExcMessage(text.str()));
-      }
+        {
+          const Point<3> a = line_point(first, t);
+          const Point<3> b = line_point(second, t);
+          if (a.distance(b) <= 1e-9 * extent)
+            continue;
+          std::ostringstream text;
+          const Point<2>     unit((1. - t) * unit_corner(second.corners[0]) +
+                              t * unit_corner(second.corners[1]));
+          text << where << ": the closed surface doesn't meet itself: at "
+               << describe(second.cell, unit) << " it is at (" << b
+               << "), on the other side of the seam at (" << a
+               << "). Give the range a full period, or choose Closed = none.";
+          AssertThrow(false, ExcMessage(text.str()));
+        }
   }
 } // namespace Nacre

@@ -34,22 +34,23 @@ namespace Nacre
       {
         for (unsigned int j = 0; j < n_y; ++j)
           for (unsigned int i = 0; i < n_x; ++i)
-          {
-            SurfaceDescription::Cell cell;
-            for (unsigned int k = 0; k < 4; ++k)
             {
-              const double x = double(i + k % 2) / n_x;
-              const double y = double(j + k / 2) / n_y;
-              Point<3>     chart;
-              for (unsigned int c = 0; c < 3; ++c)
-                chart[c] =
-                  (1. - y) * ((1. - x) * corners[0][c] + x * corners[1][c]) +
-                  y * ((1. - x) * corners[2][c] + x * corners[3][c]);
-              cell.vertices[k] = vertex(chart);
-              cell.chart[k]    = charts_[cell.vertices[k]];
+              SurfaceDescription::Cell cell;
+              for (unsigned int k = 0; k < 4; ++k)
+                {
+                  const double x = double(i + k % 2) / n_x;
+                  const double y = double(j + k / 2) / n_y;
+                  Point<3>     chart;
+                  for (unsigned int c = 0; c < 3; ++c)
+                    chart[c] =
+                      (1. - y) *
+                        ((1. - x) * corners[0][c] + x * corners[1][c]) +
+                      y * ((1. - x) * corners[2][c] + x * corners[3][c]);
+                  cell.vertices[k] = vertex(chart);
+                  cell.chart[k]    = charts_[cell.vertices[k]];
+                }
+              cells_.push_back(cell);
             }
-            cells_.push_back(cell);
-          }
       }
 
       SurfaceDescription
@@ -134,19 +135,19 @@ namespace Nacre
       for (unsigned int axis = 0; axis < 3; ++axis)
         for (const double side : {-1., 1.})
           if (side == 1. || lower[axis] == -1.)
-          {
-            unsigned int a = (axis + 1) % 3, b = (axis + 2) % 3;
-            if (side == -1.)
-              std::swap(a, b);
-            std::array<Point<3>, 4> corners;
-            for (unsigned int k = 0; k < 4; ++k)
             {
-              corners[k][axis] = side;
-              corners[k][a]    = k % 2 == 0 ? lower[a] : 1.;
-              corners[k][b]    = k / 2 == 0 ? lower[b] : 1.;
+              unsigned int a = (axis + 1) % 3, b = (axis + 2) % 3;
+              if (side == -1.)
+                std::swap(a, b);
+              std::array<Point<3>, 4> corners;
+              for (unsigned int k = 0; k < 4; ++k)
+                {
+                  corners[k][axis] = side;
+                  corners[k][a]    = k % 2 == 0 ? lower[a] : 1.;
+                  corners[k][b]    = k / 2 == 0 ? lower[b] : 1.;
+                }
+              patches.add(corners, n[a], n[b]);
             }
-            patches.add(corners, n[a], n[b]);
-          }
       return patches;
     }
 
@@ -183,10 +184,10 @@ namespace Nacre
       rectangle.closed  = {{closed, false}};
       rectangle.aliases = {{{}, {}, {"equator", "z=0"}, {"hole"}}};
       if (quarter)
-      {
-        rectangle.aliases[0] = {"y=0"};
-        rectangle.aliases[1] = {"x=0"};
-      }
+        {
+          rectangle.aliases[0] = {"y=0"};
+          rectangle.aliases[1] = {"x=0"};
+        }
       return make_rectangle(rectangle,
                             make_chart_map([radius](const Point<3> &c) {
                               const double u = c[0] * numbers::PI / 180.;

@@ -74,10 +74,11 @@ namespace Nacre
                                 radius * std::cos(c[0] * degree);
                               const double sine =
                                 radius * std::sin(c[0] * degree);
-                              return axis == "z" ? Point<3>(cosine, sine, c[1])
-                                     : axis == "y"
-                                       ? Point<3>(sine, c[1], cosine)
-                                       : Point<3>(c[1], sine, cosine);
+                              return axis == "z" ?
+                                       Point<3>(cosine, sine, c[1]) :
+                                     axis == "y" ?
+                                       Point<3>(sine, c[1], cosine) :
+                                       Point<3>(c[1], sine, cosine);
                             }));
     }
 
@@ -331,21 +332,21 @@ namespace Nacre
     surface.map        = std::move(map);
     for (unsigned int j = 0; j + 1 < v.size(); ++j)
       for (unsigned int i = 0; i + 1 < u.size(); ++i)
-      {
-        SurfaceDescription::Cell cell;
-        for (unsigned int k = 0; k < 4; ++k)
         {
-          const unsigned int column = i + k % 2, row = j + k / 2;
-          cell.vertices[k] = column % n_u + n_u * (row % n_v);
-          cell.chart[k]    = Point<3>(u[column], v[row], 0.);
+          SurfaceDescription::Cell cell;
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              const unsigned int column = i + k % 2, row = j + k / 2;
+              cell.vertices[k] = column % n_u + n_u * (row % n_v);
+              cell.chart[k]    = Point<3>(u[column], v[row], 0.);
+            }
+          if (rectangle.flip)
+            {
+              std::swap(cell.vertices[1], cell.vertices[2]);
+              std::swap(cell.chart[1], cell.chart[2]);
+            }
+          surface.cells.push_back(cell);
         }
-        if (rectangle.flip)
-        {
-          std::swap(cell.vertices[1], cell.vertices[2]);
-          std::swap(cell.chart[1], cell.chart[2]);
-        }
-        surface.cells.push_back(cell);
-      }
 
     const std::array<std::string, 4> names{{"u=0", "u=1", "v=0", "v=1"}};
     const std::array<double, 4>      values{

@@ -6,7 +6,6 @@
 #include <nacre/base/output_file.h>
 #include <nacre/base/parameter_input.h>
 #include <nacre/base/text.h>
-
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/convergence_study.h>
@@ -144,10 +143,15 @@ namespace Nacre
   void
   ConvergenceStudy::run(Log &log)
   {
-    const auto        constants = parse_constants(heading_.constants, "Constants");
-    const std::string base = (std::filesystem::path(output_folder_) / name_).string();
+    const auto constants = parse_constants(heading_.constants, "Constants");
+    const std::string base =
+      (std::filesystem::path(output_folder_) / name_).string();
     run_on_root(communicator_, [&]() {
       create_folder(output_folder_);
+      // A run that fails must not leave an older one's results.
+      std::error_code not_there;
+      for (const auto *const ending : {".csv", ".txt", ".tex", ".pvd"})
+        std::filesystem::remove(base + ending, not_there);
       write_used_parameters(base + ".used.prm");
     });
 
@@ -170,10 +174,11 @@ namespace Nacre
         const SolvedShell &shell = problem_.solution();
 
         ResultsTable::Row row;
-        row.element   = problem_.element();
-        row.degree    = cases[k].degree;
-        row.cells     = shell.discretization.triangulation().n_global_active_cells();
-        row.dofs      = shell.discretization.dof_handler().n_dofs();
+        row.element = problem_.element();
+        row.degree  = cases[k].degree;
+        row.cells =
+          shell.discretization.triangulation().n_global_active_cells();
+        row.dofs = shell.discretization.dof_handler().n_dofs();
         std::ostringstream eta, thickness, line;
         eta << std::setprecision(4) << problem_.eta();
         row.eta = cases[k].eta ? eta.str() : "default";
@@ -224,8 +229,7 @@ namespace Nacre
     table.write_text(text, report_seconds_);
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
-    log.results() << text.str()
-                  << "\nResults: " << base << ".csv (.txt, .tex"
+    log.results() << text.str() << "\nResults: " << base << ".csv (.txt, .tex"
                   << (write_vtu_ ? ", .pvd)" : ")") << std::endl;
   }
 } // namespace Nacre

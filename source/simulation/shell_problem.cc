@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/log.h>
-
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
@@ -143,15 +142,14 @@ namespace Nacre
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
-    solution_               = std::make_unique<SolvedShell>(
-      SolvedShell{*discretization_,
-                  *section_,
-                  *operator_,
-                  membrane_strain(),
-                  exact_solution_,
-                  displacement_,
-                  residual_,
-                  energies});
+    solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
+                                                          *section_,
+                                                          *operator_,
+                                                          membrane_strain(),
+                                                          exact_solution_,
+                                                          displacement_,
+                                                          residual_,
+                                                          energies});
   }
 
   void
@@ -165,7 +163,7 @@ namespace Nacre
       sum += timer.cpu_time();
       timer.restart();
     };
-    const IndexSet                &owned = discretization_->locally_owned_dofs();
+    const IndexSet &owned = discretization_->locally_owned_dofs();
     TrilinosWrappers::SparseMatrix matrix;
     operator_->reinit_matrix(constraints, matrix);
     TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);

@@ -58,7 +58,8 @@ panel_mesh()
 }
 
 TrilinosVector
-owned_interpolant(const Discretization &discretization, const VectorField &field)
+owned_interpolant(const Discretization &discretization,
+                  const VectorField    &field)
 {
   TrilinosVector u(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
   std::vector<types::global_dof_index> dofs(discretization.node_dofs().size());
@@ -89,22 +90,21 @@ main(int argc, char *argv[])
 
   // Membrane, bending and edge energy, work of the residual on another field,
   // norm of the residual; from a run on one rank in Release.
-  const std::vector<std::array<double, 5>> expected = {
-    {{958.87676478493688,
-      1.888085968509758,
-      3.2588282200955243,
-      215.93543525099801,
-      199.78835764746066}},
-    {{946.85290943603468,
-      2.3835527089558624,
-      3.9832935794672957,
-      224.57361952550366,
-      181.32944505934452}},
-    {{946.44255275782416,
-      2.1989615947301311,
-      4.3627041776457984,
-      223.10121683406692,
-      198.86698360697739}}};
+  const std::vector<std::array<double, 5>> expected = {{{958.87676478493688,
+                                                         1.888085968509758,
+                                                         3.2588282200955243,
+                                                         215.93543525099801,
+                                                         199.78835764746066}},
+                                                       {{946.85290943603468,
+                                                         2.3835527089558624,
+                                                         3.9832935794672957,
+                                                         224.57361952550366,
+                                                         181.32944505934452}},
+                                                       {{946.44255275782416,
+                                                         2.1989615947301311,
+                                                         4.3627041776457984,
+                                                         223.10121683406692,
+                                                         198.86698360697739}}};
 
   const Parameters parameters(section_text(100., 0.3, 0.2));
   for (unsigned int degree = 2; degree <= 4; ++degree)
@@ -116,7 +116,7 @@ main(int argc, char *argv[])
                                          parameters.loads,
                                          MembraneStrain::tied,
                                          6. * degree);
-      TrilinosVector u(discretization->locally_owned_dofs(),
+      TrilinosVector      u(discretization->locally_owned_dofs(),
                        discretization->locally_relevant_dofs(),
                        MPI_COMM_WORLD);
       // A temporary would be moved, and with it go the ghosts.
@@ -124,15 +124,18 @@ main(int argc, char *argv[])
       u                = owned;
       TrilinosVector residual(discretization->locally_owned_dofs(),
                               MPI_COMM_WORLD);
-      const Energies energies = shell_operator.residual(u, residual);
+      const Energies energies           = shell_operator.residual(u, residual);
       const std::array<double, 5> found = {
         {energies.membrane,
          energies.bending,
          energies.edge,
          residual * owned_interpolant(*discretization, other_field),
          residual.l2_norm()}};
-      const char *const names[] = {
-        "membrane energy", "bending energy", "edge energy", "work", "norm"};
+      const char *const names[] = {"membrane energy",
+                                   "bending energy",
+                                   "edge energy",
+                                   "work",
+                                   "norm"};
       for (unsigned int k = 0; k < found.size(); ++k)
         {
           if (std::getenv("NACRE_TEST_VALUES") != nullptr && root)

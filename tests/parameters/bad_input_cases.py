@@ -177,7 +177,7 @@ case("constant_shadows_section",
      ["Constants", "'h'", "section's", "another name"],
      {"Constants": "a = 2, q = 1, h = 3"})
 case("poissons_ratio_expression",
-     ["Poisson's ratio", "'0.3*x'", "not allowed", "number"],
+     ["Section/Poisson's ratio", "'0.3*x'", "unknown name 'x'"],
      {"Section/Poisson's ratio": "0.3*x"})
 case("constant_twice", ["Constants", "'q'", "before"],
      {"Constants": "a = 2, q = 1, q = 3"})
@@ -427,6 +427,8 @@ case("misspelt_quantity",
      {QUANTITIES: "w = enregy"})
 case("quantity_without_kind", [QUANTITIES, "'energy'", "name = kind"],
      {QUANTITIES: "energy"})
+case("quantity_named_as_column", [QUANTITIES, "'dofs'", "another column"],
+     {QUANTITIES: "dofs = energy"})
 case("quantity_twice", [QUANTITIES, "named 'w'"],
      {QUANTITIES: "w = energy; w = bending energy"})
 case("quantity_without_name", [QUANTITIES, "no name"],

@@ -22,7 +22,9 @@ namespace Nacre::Text
    * message that quotes @p where, the parameter that holds the text.
    */
   std::vector<std::string>
-  split(const std::string &text, const char separator, const std::string &where);
+  split(const std::string &text,
+        const char         separator,
+        const std::string &where);
 
   /**
    * Split "key = value" at the first '=' outside parentheses that isn't part

@@ -74,11 +74,11 @@ namespace Nacre
      */
     Discretization(
       std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
-      const std::function<Point<spacedim>(
-        const Triangulation<dim, spacedim>::cell_iterator &,
-        const Point<dim> &)>                                     &position,
-      const unsigned int                                          degree,
-      const unsigned int                                          mapping_degree);
+      const std::function<
+        Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
+                        const Point<dim> &)> &position,
+      const unsigned int                      degree,
+      const unsigned int                      mapping_degree);
 
     unsigned int
     degree() const;

@@ -5,7 +5,6 @@
 #define nacre_discretization_displacement_conditions_h
 
 #include <nacre/discretization/discretization.h>
-
 #include <nacre/problem/boundary_conditions.h>
 
 #include <string>
@@ -49,11 +48,11 @@ namespace Nacre
     /** A node on a boundary edge, as one of its cells sees it. */
     struct EdgeNode
     {
-      types::boundary_id                             id;
+      types::boundary_id                            id;
       std::array<types::global_dof_index, spacedim> dofs;
-      Point<spacedim>                                position;
-      Vector3                                        normal;
-      Vector3                                        conormal;
+      Point<spacedim>                               position;
+      Vector3                                       normal;
+      Vector3                                       conormal;
     };
 
     /** One prescribed component direction . u = value of a node. */

@@ -6,7 +6,6 @@
 
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/shape_table.h>
-
 #include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/fe/fe_interface_values.h>
@@ -131,15 +130,15 @@ namespace Nacre
     void
     fill_bending_rows();
 
-    const Discretization    &discretization_;
-    const Quadrature<dim>    quadrature_;
-    const bool               tied_;
+    const Discretization     &discretization_;
+    const Quadrature<dim>     quadrature_;
+    const bool                tied_;
     FE_Nothing<dim, spacedim> fe_nothing_;
-    FEValues<dim, spacedim>  fe_values_;
-    FEValues<dim, spacedim>  tying_fe_values_;
-    ShapeTable               shapes_;
-    ShapeTable               tying_shapes_;
-    std::array<Tying, 3>     tyings_;
+    FEValues<dim, spacedim>   fe_values_;
+    FEValues<dim, spacedim>   tying_fe_values_;
+    ShapeTable                shapes_;
+    ShapeTable                tying_shapes_;
+    std::array<Tying, 3>      tyings_;
 
     std::vector<SurfaceFrame<>> frames_;
     FullMatrix<double>          membrane_rows_;
@@ -248,7 +247,9 @@ namespace Nacre
 
     /** Index within dof_indices() of a side's node and component. */
     unsigned int
-    dof(const unsigned int side, const unsigned int a, const unsigned int c) const
+    dof(const unsigned int side,
+        const unsigned int a,
+        const unsigned int c) const
     {
       return joint_dofs_[side][spacedim * a + c];
     }
@@ -262,13 +263,13 @@ namespace Nacre
     const Quadrature<1>              quadrature_;
     FEInterfaceValues<dim, spacedim> interface_values_;
     /** [face][subface], the whole face last. */
-    std::vector<std::vector<ShapeTable>>        tables_;
-    unsigned int                                n_sides_ = 0;
-    std::array<const ShapeTable *, 2>           shapes_;
-    std::array<std::vector<SurfaceFrame<>>, 2>  frames_;
-    std::array<std::vector<unsigned int>, 2>    joint_dofs_;
-    std::array<std::vector<unsigned int>, 2>    local_to_joint_;
-    std::vector<types::global_dof_index>        dof_indices_;
+    std::vector<std::vector<ShapeTable>>       tables_;
+    unsigned int                               n_sides_ = 0;
+    std::array<const ShapeTable *, 2>          shapes_;
+    std::array<std::vector<SurfaceFrame<>>, 2> frames_;
+    std::array<std::vector<unsigned int>, 2>   joint_dofs_;
+    std::array<std::vector<unsigned int>, 2>   local_to_joint_;
+    std::vector<types::global_dof_index>       dof_indices_;
   };
 } // namespace Nacre
 

@@ -5,7 +5,6 @@
 #define nacre_forms_edge_penalty_h
 
 #include <nacre/discretization/shell_values.h>
-
 #include <nacre/mechanics/section_law.h>
 
 #include <optional>

@@ -5,7 +5,6 @@
 #define nacre_forms_hinge_form_h
 
 #include <nacre/discretization/shell_values.h>
-
 #include <nacre/mechanics/section_law.h>
 
 namespace Nacre

@@ -5,7 +5,6 @@
 #define nacre_forms_kinematics_h
 
 #include <nacre/discretization/shell_values.h>
-
 #include <nacre/mechanics/section_law.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -90,7 +89,7 @@ namespace Nacre
     virtual void
     add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
                    const Vector<double>                              &u,
-                   LocalTerms                                        &terms) = 0;
+                   LocalTerms &terms) = 0;
 
     /** Frames at the full rule of the last cell. */
     virtual const ShellCellValues &

@@ -30,9 +30,9 @@ namespace Nacre
   class MatrixScatter
   {
   public:
-    MatrixScatter(const AffineConstraints<double>  &constraints,
-                  TrilinosWrappers::SparseMatrix   &matrix,
-                  TrilinosWrappers::MPI::Vector    &right_hand_side);
+    MatrixScatter(const AffineConstraints<double> &constraints,
+                  TrilinosWrappers::SparseMatrix  &matrix,
+                  TrilinosWrappers::MPI::Vector   &right_hand_side);
 
     void
     add(const FullMatrix<double>                   &local_matrix,

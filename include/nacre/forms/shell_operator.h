@@ -108,7 +108,7 @@ namespace Nacre
                     CopyData    &copy) const;
 
     void
-    subtract_surface_loads(const ShellCellValues &values,
+    subtract_surface_loads(const ShellCellValues  &values,
                            dealii::Vector<double> &residual) const;
 
     void
@@ -125,13 +125,13 @@ namespace Nacre
     void
     locate_point_forces();
 
-    const Discretization     &discretization_;
-    const SectionLaw         &section_;
-    const BoundaryConditions &boundary_conditions_;
-    const Loads              &loads_;
-    EdgePenalty               penalty_;
+    const Discretization       &discretization_;
+    const SectionLaw           &section_;
+    const BoundaryConditions   &boundary_conditions_;
+    const Loads                &loads_;
+    EdgePenalty                 penalty_;
     std::unique_ptr<Kinematics> kinematics_;
-    std::vector<SurfacePoint> force_points_;
+    std::vector<SurfacePoint>   force_points_;
   };
 } // namespace Nacre
 

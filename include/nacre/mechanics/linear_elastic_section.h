@@ -5,7 +5,6 @@
 #define nacre_mechanics_linear_elastic_section_h
 
 #include <nacre/base/expression.h>
-
 #include <nacre/mechanics/section_law.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -44,7 +43,9 @@ namespace Nacre
    * Isotropic linear elastic homogeneous section, (8)-(10):
    * H_n = E h/(1 - nu^2) H, H_m = E h^3/(12 (1 - nu^2)) H.
    */
-  class LinearElasticSection : public SectionLaw, public ParameterAcceptor
+  class LinearElasticSection
+    : public SectionLaw
+    , public ParameterAcceptor
   {
   public:
     LinearElasticSection();
@@ -65,7 +66,8 @@ namespace Nacre
     density(const Point<3> &point) const override;
 
     SectionStiffness
-    stiffness(const SurfaceFrame<> &frame, const Point<3> &point) const override;
+    stiffness(const SurfaceFrame<> &frame,
+              const Point<3>       &point) const override;
 
   private:
     double

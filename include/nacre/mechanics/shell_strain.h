@@ -95,8 +95,8 @@ namespace Nacre
     Voigt<Number>
     dyad_of(const SurfaceFrame<Number> &frame, const Tensor<1, 3, Number> &nu)
     {
-      const Number nu_1 = frame.a_cov[0] * nu;
-      const Number nu_2 = frame.a_cov[1] * nu;
+      const Number  nu_1 = frame.a_cov[0] * nu;
+      const Number  nu_2 = frame.a_cov[1] * nu;
       Voigt<Number> dyad;
       dyad[0] = nu_1 * nu_1;
       dyad[1] = nu_2 * nu_2;

@@ -48,13 +48,13 @@ namespace Nacre
                      const std::array<Tensor<1, 3, Number>, 3> &derivatives)
   {
     SurfaceFrame<Number> frame;
-    frame.a_cov                = {{a_1, a_2}};
-    frame.a_cov_derivatives    = derivatives;
-    const auto   cross         = cross_product_3d(a_1, a_2);
-    const Number a_11          = a_1 * a_1;
-    const Number a_22          = a_2 * a_2;
-    const Number a_12          = a_1 * a_2;
-    const Number j0_squared    = cross * cross;
+    frame.a_cov             = {{a_1, a_2}};
+    frame.a_cov_derivatives = derivatives;
+    const auto   cross      = cross_product_3d(a_1, a_2);
+    const Number a_11       = a_1 * a_1;
+    const Number a_22       = a_2 * a_2;
+    const Number a_12       = a_1 * a_2;
+    const Number j0_squared = cross * cross;
     using std::sqrt;
     frame.j0         = sqrt(j0_squared);
     frame.t0         = cross / frame.j0;

@@ -5,7 +5,6 @@
 #define nacre_postprocess_quantities_of_interest_h
 
 #include <nacre/base/expression.h>
-
 #include <nacre/forms/kinematics.h>
 
 #include <deal.II/base/parameter_acceptor.h>

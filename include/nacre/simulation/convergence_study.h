@@ -69,7 +69,7 @@ namespace Nacre
     std::vector<unsigned int> degrees_       = {2};
     std::vector<std::string>  penalties_     = {"default"};
     std::vector<std::string>  thicknesses_;
-    std::vector<unsigned int> refinements_ = {0};
+    std::vector<unsigned int> refinements_    = {0};
     bool                      write_vtu_      = true;
     bool                      report_seconds_ = true;
 

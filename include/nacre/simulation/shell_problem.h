@@ -5,7 +5,6 @@
 #define nacre_simulation_shell_problem_h
 
 #include <nacre/base/types.h>
-
 #include <nacre/forms/kinematics.h>
 #include <nacre/mechanics/section_law.h>
 #include <nacre/problem/boundary_conditions.h>
@@ -49,7 +48,8 @@ namespace Nacre
   {
   public:
     /** @param section the section law, which reads its own parameters */
-    ShellProblem(const MPI_Comm communicator, std::unique_ptr<SectionLaw> section);
+    ShellProblem(const MPI_Comm              communicator,
+                 std::unique_ptr<SectionLaw> section);
     ~ShellProblem() override;
 
     /** Read and check everything for a case; throws ExcMessage. */
@@ -114,8 +114,7 @@ namespace Nacre
     warn_of_penalty(Log &log) const;
 
     void
-    solve_linear_system(const AffineConstraints<double> &constraints,
-                        Log                             &log);
+    solve_linear_system(const AffineConstraints<double> &constraints, Log &log);
 
     MembraneStrain
     membrane_strain() const;
