@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/displacement_conditions.h>
+#include <nacre/discretization/rigid_motions.h>
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
@@ -31,16 +32,26 @@ namespace Nacre
       return e;
     }
 
-    std::string
-    in_words(const Vector3 &v)
+    /** Unit normal and outward conormal at a point of a face. */
+    std::pair<Vector3, Vector3>
+    edge_directions(const DerivativeForm<1, dim, spacedim> &jacobian,
+                    const unsigned int                      face)
     {
-      std::ostringstream text;
-      text.precision(4);
-      text << '(';
+      Vector3 a_1, a_2;
       for (unsigned int c = 0; c < spacedim; ++c)
-        text << (c > 0 ? ", " : "") << (std::abs(v[c]) < 1e-10 ? 0. : v[c]);
-      text << ')';
-      return text.str();
+        {
+          a_1[c] = jacobian[c][0];
+          a_2[c] = jacobian[c][1];
+        }
+      // Faces 0, 1 run along xi2, faces 2, 3 along xi1.
+      const Vector3 normal   = unit(cross_product_3d(a_1, a_2));
+      const Vector3 along    = face < 2 ? a_2 : a_1;
+      Vector3       conormal = unit(cross_product_3d(along, normal));
+      const Vector3 outward =
+        (face % 2 == 1 ? 1. : -1.) * (face < 2 ? a_1 : a_2);
+      if (conormal * outward < 0.)
+        conormal *= -1.;
+      return {normal, conormal};
     }
 
     /** Eigenvalues, ascending, and eigenvectors (columns) of A. */
@@ -105,21 +116,8 @@ namespace Nacre
             for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
               if (fe.has_support_on_face(a, face))
                 {
-                  const auto &J = fe_values.jacobian(a);
-                  Vector3     a_1, a_2;
-                  for (unsigned int c = 0; c < spacedim; ++c)
-                    {
-                      a_1[c] = J[c][0];
-                      a_2[c] = J[c][1];
-                    }
-                  // Faces 0, 1 run along xi2, faces 2, 3 along xi1.
-                  const Vector3 normal = unit(cross_product_3d(a_1, a_2));
-                  const Vector3 along  = face < 2 ? a_2 : a_1;
-                  Vector3 conormal     = unit(cross_product_3d(along, normal));
-                  if (conormal * (face < 2 ? a_1 : a_2) *
-                        (face % 2 == 1 ? 1. : -1.) <
-                      0.)
-                    conormal *= -1.;
+                  const auto [normal, conormal] =
+                    edge_directions(fe_values.jacobian(a), face);
                   for (unsigned int c = 0; c < spacedim; ++c)
                     mine.push_back(dofs[node_dofs[spacedim * a + c]]);
                   mine.push_back(cell->face(face)->boundary_id());
@@ -129,7 +127,12 @@ namespace Nacre
                     mine.insert(mine.end(), v.begin_raw(), v.end_raw());
                 }
           }
+    return gather(mine);
+  }
 
+  std::vector<DisplacementConditions::EdgeNode>
+  DisplacementConditions::gather(const std::vector<double> &mine) const
+  {
     std::vector<EdgeNode> nodes;
     for (const auto &numbers :
          Utilities::MPI::all_gather(discretization_.communicator(), mine))
@@ -239,6 +242,35 @@ namespace Nacre
     return unit(conormal);
   }
 
+  std::vector<Tensor<1, spacedim>>
+  DisplacementConditions::directions_of(const Direction direction,
+                                        const EdgeNode &node,
+                                        const Vector3  &plane)
+  {
+    switch (direction)
+      {
+        case Direction::normal:
+          return {node.normal};
+        case Direction::conormal:
+          return {node.conormal};
+        case Direction::tangent:
+          return {cross_product_3d(node.normal, node.conormal)};
+        case Direction::plane_normal:
+          return {plane};
+        case Direction::within_plane:
+          {
+            unsigned int c = 0;
+            for (unsigned int d = 1; d < spacedim; ++d)
+              if (std::abs(plane[d]) < std::abs(plane[c]))
+                c = d;
+            const auto first = unit(axis(c) - plane[c] * plane);
+            return {first, cross_product_3d(plane, first)};
+          }
+        default: // x, y, z
+          return {axis(static_cast<unsigned int>(direction))};
+      }
+  }
+
   void
   DisplacementConditions::add_edge_conditions(
     const std::vector<EdgeNode> &raw_nodes)
@@ -246,12 +278,11 @@ namespace Nacre
     const auto nodes = average(raw_nodes);
     for (const auto &[id, conditions] : boundary_conditions_.edges())
       {
-        std::map<Direction, Vector3> plane;
+        Vector3 plane;
         for (const auto &condition : conditions.displacements)
           if (condition.direction == Direction::plane_normal ||
               condition.direction == Direction::within_plane)
-            plane[condition.direction] =
-              plane_normal(nodes, id, condition.source);
+            plane = plane_normal(nodes, id, condition.source);
 
         for (const auto &edge_node : nodes)
           {
@@ -266,41 +297,8 @@ namespace Nacre
             node.dofs     = edge_node.dofs;
             for (const auto &condition : conditions.displacements)
               {
-                std::vector<Vector3> directions;
-                switch (condition.direction)
-                  {
-                    case Direction::x:
-                    case Direction::y:
-                    case Direction::z:
-                      directions = {
-                        axis(static_cast<unsigned int>(condition.direction))};
-                      break;
-                    case Direction::normal:
-                      directions = {edge_node.normal};
-                      break;
-                    case Direction::conormal:
-                      directions = {edge_node.conormal};
-                      break;
-                    case Direction::tangent:
-                      directions = {
-                        cross_product_3d(edge_node.normal, edge_node.conormal)};
-                      break;
-                    case Direction::plane_normal:
-                      directions = {plane[condition.direction]};
-                      break;
-                    case Direction::within_plane:
-                      {
-                        const auto  &normal = plane[condition.direction];
-                        unsigned int c      = 0;
-                        for (unsigned int d = 1; d < spacedim; ++d)
-                          if (std::abs(normal[d]) < std::abs(normal[c]))
-                            c = d;
-                        const auto first = unit(axis(c) - normal[c] * normal);
-                        directions = {first, cross_product_3d(normal, first)};
-                        break;
-                      }
-                  }
-                for (const auto &direction : directions)
+                for (const auto &direction :
+                     directions_of(condition.direction, edge_node, plane))
                   node.components.push_back(
                     {direction,
                      condition.value(edge_node.position),
@@ -364,8 +362,8 @@ namespace Nacre
       }
   }
 
-  void
-  DisplacementConditions::constrain(const Node &node)
+  std::vector<DisplacementConditions::Component>
+  DisplacementConditions::independent_components(const Node &node)
   {
     // Orthonormal directions with their values, first come first.
     std::vector<Component> basis;
@@ -404,8 +402,13 @@ namespace Nacre
                         ExcMessage(message.str()));
           }
       }
+    return basis;
+  }
 
-    // Solve for the components with the largest coefficients.
+  std::vector<unsigned int>
+  DisplacementConditions::solve_for_pivots(std::vector<Component> &basis)
+  {
+    std::vector<unsigned int>  pivots;
     std::array<bool, spacedim> solved{{false, false, false}};
     for (unsigned int k = 0; k < basis.size(); ++k)
       {
@@ -416,6 +419,7 @@ namespace Nacre
                                std::abs(basis[k].direction[pivot]) + 1e-12))
             pivot = c;
         solved[pivot] = true;
+        pivots.push_back(pivot);
         basis[k].value /= basis[k].direction[pivot];
         basis[k].direction /= basis[k].direction[pivot];
         for (unsigned int m = 0; m < basis.size(); ++m)
@@ -426,13 +430,19 @@ namespace Nacre
               basis[m].value -= factor * basis[k].value;
             }
       }
-    for (const auto &line : basis)
+    return pivots;
+  }
+
+  void
+  DisplacementConditions::constrain(const Node &node)
+  {
+    auto       basis  = independent_components(node);
+    const auto pivots = solve_for_pivots(basis);
+    for (unsigned int k = 0; k < basis.size(); ++k)
       {
-        unsigned int pivot = 0;
-        while (std::abs(line.direction[pivot] - 1.) > 1e-9 || !solved[pivot])
-          ++pivot;
-        solved[pivot]  = false;
-        const auto dof = node.dofs[pivot];
+        const auto        &line  = basis[k];
+        const unsigned int pivot = pivots[k];
+        const auto         dof   = node.dofs[pivot];
         if (!discretization_.locally_relevant_dofs().is_element(dof) ||
             constraints_.is_constrained(dof))
           continue;
@@ -447,84 +457,13 @@ namespace Nacre
   std::vector<std::string>
   DisplacementConditions::free_rigid_motions() const
   {
-    // A rigid motion (tau, omega): u = tau + omega x (X - centre) / length.
-    const auto         extent = discretization_.extent();
-    FullMatrix<double> prevented(2 * spacedim, 2 * spacedim);
-    const auto         prevent = [&](const Vector3 &translation,
-                             const Vector3 &rotation) {
-      std::array<double, 2 * spacedim> row;
-      for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          row[c]            = translation[c];
-          row[spacedim + c] = rotation[c];
-        }
-      for (unsigned int i = 0; i < row.size(); ++i)
-        for (unsigned int j = 0; j < row.size(); ++j)
-          prevented(i, j) += row[i] * row[j];
-    };
-    for (const auto &[dof, node] : nodes_)
-      for (const auto &component : node.components)
-        prevent(component.direction,
-                cross_product_3d((node.position - extent.first) / extent.second,
-                                 component.direction));
+    const auto   extent = discretization_.extent();
+    RigidMotions motions(extent.first, extent.second);
+    for (const auto &entry : nodes_)
+      for (const auto &component : entry.second.components)
+        motions.hold_displacement(entry.second.position, component.direction);
     for (const auto &axis : rotation_axes_)
-      prevent(Vector3(), axis);
-
-    const auto [values, vectors] = eigenpairs(prevented);
-    std::vector<std::array<Vector3, 2>> motions;
-    for (unsigned int k = 0; k < values.size(); ++k)
-      if (values[k] <= 1e-8 * std::max(1., values[values.size() - 1]))
-        {
-          std::array<Vector3, 2> motion;
-          for (unsigned int c = 0; c < spacedim; ++c)
-            {
-              motion[0][c] = vectors(c, k);
-              motion[1][c] = vectors(spacedim + c, k);
-            }
-          motions.push_back(motion);
-        }
-
-    // Combine them so that as many as possible are pure translations:
-    // eliminate rotations, largest components first.
-    std::vector<std::string> names;
-    unsigned int             n_done = 0;
-    for (unsigned int part : {1, 0})
-      for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          unsigned int best = n_done;
-          for (unsigned int k = n_done; k < motions.size(); ++k)
-            if (std::abs(motions[k][part][c]) >
-                std::abs(motions[best][part][c]))
-              best = k;
-          if (n_done == motions.size() ||
-              std::abs(motions[best][part][c]) < 1e-5)
-            continue;
-          std::swap(motions[n_done], motions[best]);
-          const double pivot = motions[n_done][part][c];
-          for (auto &v : motions[n_done])
-            v /= pivot;
-          for (unsigned int k = 0; k < motions.size(); ++k)
-            if (k != n_done)
-              {
-                const double factor = motions[k][part][c];
-                for (unsigned int v = 0; v < 2; ++v)
-                  motions[k][v] -= factor * motions[n_done][v];
-              }
-          ++n_done;
-        }
-    for (const auto &[translation, rotation] : motions)
-      if (rotation.norm() < 1e-5 * translation.norm())
-        names.push_back("translation along " + in_words(unit(translation)));
-      else
-        {
-          // The axis' point nearest to the centre: (omega x tau) / omega^2.
-          const Vector3 point =
-            Vector3(extent.first) + extent.second *
-                                      cross_product_3d(rotation, translation) /
-                                      rotation.norm_square();
-          names.push_back("rotation about " + in_words(unit(rotation)) +
-                          " through " + in_words(point));
-        }
-    return names;
+      motions.hold_rotation(axis);
+    return motions.free_motions();
   }
 } // namespace Nacre

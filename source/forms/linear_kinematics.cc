@@ -164,14 +164,80 @@ namespace Nacre
       }
   }
 
+  LinearKinematics::Fluxes
+  LinearKinematics::fluxes(const ShellEdgeValues &edge,
+                           const unsigned int     q,
+                           const double           penalty) const
+  {
+    // The mirror image of a boundary cell doubles the penalty.
+    const double factor =
+      edge.n_sides() == 2 ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
+    const double dx = edge.JxW(q);
+
+    Fluxes fluxes;
+    fluxes.penalty = NACRE_MUTABLE(penalty_sign, 1., -1.) * factor * penalty *
+                     hinge_.stiffness() * dx;
+    fluxes.symmetry    = NACRE_MUTABLE(symmetry_sign, -1., 1.) * dx;
+    fluxes.consistency = NACRE_MUTABLE(consistency_sign, -1., 1.) * dx;
+    return fluxes;
+  }
+
+  void
+  LinearKinematics::fill_edge_rows(const unsigned int q, const Fluxes &fluxes)
+  {
+    const auto &jump     = hinge_.rotation_jump();
+    const auto &moment   = hinge_.mean_moment();
+    double     *v_jump   = &test_rows_(2 * q, 0);
+    double     *v_moment = &test_rows_(2 * q + 1, 0);
+    double     *u_jump   = &trial_rows_(2 * q, 0);
+    double     *u_moment = &trial_rows_(2 * q + 1, 0);
+    for (unsigned int i = 0; i < jump.size(); ++i)
+      {
+        v_jump[i]   = jump[i];
+        v_moment[i] = moment[i];
+        u_jump[i]   = fluxes.penalty * jump[i] + fluxes.consistency * moment[i];
+        u_moment[i] = fluxes.symmetry * jump[i];
+      }
+  }
+
+  void
+  LinearKinematics::add_edge_residual(const Fluxes         &fluxes,
+                                      const double          rotation,
+                                      const Vector<double> &u,
+                                      LocalTerms           &terms) const
+  {
+    const auto &jump   = hinge_.rotation_jump();
+    const auto &moment = hinge_.mean_moment();
+    // With a prescribed rotation, the jump is rotation - theta^-.
+    double u_jump   = rotation;
+    double u_moment = 0.;
+    for (unsigned int i = 0; i < u.size(); ++i)
+      {
+        u_jump += jump[i] * u[i];
+        u_moment += moment[i] * u[i];
+      }
+    if (u_jump == 0. && u_moment == 0.)
+      return;
+    for (unsigned int i = 0; i < jump.size(); ++i)
+      terms.residual[i] +=
+        (fluxes.penalty * u_jump + fluxes.consistency * u_moment) * jump[i] +
+        fluxes.symmetry * u_jump * moment[i];
+    terms.energies.edge +=
+      0.5 * fluxes.penalty * u_jump * u_jump +
+      0.5 * (fluxes.consistency + fluxes.symmetry) * u_moment * u_jump;
+  }
+
   void
   LinearKinematics::add_edge_terms(const ShellEdgeValues &edge,
                                    const double           penalty,
                                    const Vector<double>  &u,
                                    LocalTerms            &terms)
   {
-    const std::vector<double> no_rotation(edge.n_points(), 0.);
-    add_rotation_terms(edge, penalty, no_rotation, u, terms);
+    add_rotation_terms(edge,
+                       penalty,
+                       std::vector<double>(edge.n_points(), 0.),
+                       u,
+                       terms);
   }
 
   void
@@ -181,67 +247,21 @@ namespace Nacre
                                        const Vector<double>      &u,
                                        LocalTerms                &terms)
   {
-    const unsigned int n        = edge.n_dofs();
     const unsigned int n_points = edge.n_points();
-    const bool         interior = (edge.n_sides() == 2);
-    // The mirror image of a boundary cell doubles the penalty.
-    const double factor = interior ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
-
     if (terms.wants_tangent)
       {
-        test_rows_.reinit(2 * n_points, n, true);
-        trial_rows_.reinit(2 * n_points, n, true);
+        test_rows_.reinit(2 * n_points, edge.n_dofs(), true);
+        trial_rows_.reinit(2 * n_points, edge.n_dofs(), true);
       }
     for (unsigned int q = 0; q < n_points; ++q)
       {
         hinge_.reinit(edge, q, section_);
-        const auto  &jump   = hinge_.rotation_jump();
-        const auto  &moment = hinge_.mean_moment();
-        const double dx     = edge.JxW(q);
-
-        const double penalty_flux = NACRE_MUTABLE(penalty_sign, 1., -1.) *
-                                    factor * penalty * hinge_.stiffness() * dx;
-        const double symmetry_flux = NACRE_MUTABLE(symmetry_sign, -dx, dx);
-        const double consistency_flux =
-          NACRE_MUTABLE(consistency_sign, -dx, dx);
-
+        const Fluxes weights = fluxes(edge, q, penalty);
         if (terms.wants_tangent)
-          {
-            double *v_jump   = &test_rows_(2 * q, 0);
-            double *v_moment = &test_rows_(2 * q + 1, 0);
-            double *u_jump   = &trial_rows_(2 * q, 0);
-            double *u_moment = &trial_rows_(2 * q + 1, 0);
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                v_jump[i]   = jump[i];
-                v_moment[i] = moment[i];
-                u_jump[i] =
-                  penalty_flux * jump[i] + consistency_flux * moment[i];
-                u_moment[i] = symmetry_flux * jump[i];
-              }
-          }
-
-        // With a prescribed rotation, the jump is rotation - theta^-.
-        double u_jump   = rotation[q];
-        double u_moment = 0.;
-        if (u.size() > 0)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              u_jump += jump[i] * u[i];
-              u_moment += moment[i] * u[i];
-            }
-        if (u_jump != 0. || u_moment != 0.)
-          {
-            for (unsigned int i = 0; i < n; ++i)
-              terms.residual[i] +=
-                (penalty_flux * u_jump + consistency_flux * u_moment) *
-                  jump[i] +
-                symmetry_flux * u_jump * moment[i];
-            terms.energies.edge +=
-              0.5 * penalty_flux * u_jump * u_jump +
-              0.5 * (consistency_flux + symmetry_flux) * u_moment * u_jump;
-          }
+          fill_edge_rows(q, weights);
+        add_edge_residual(weights, rotation[q], u, terms);
       }
+    // Rank two a point: one dense product for all points.
     if (terms.wants_tangent)
       test_rows_.Tmmult(terms.tangent, trial_rows_, true);
   }

@@ -47,85 +47,107 @@ namespace Nacre
           strain[v] += rows(3 * q + v, i) * u[i];
       return strain;
     }
+
+    /** Squares of the three norms of the error on one cell after another. */
+    class CellErrors
+    {
+    public:
+      explicit CellErrors(const SolvedShell &shell)
+        : shell_(shell)
+        , quadrature_(shell.discretization.degree() + 3)
+        , values_(shell.discretization,
+                  quadrature_,
+                  shell.membrane_strain == MembraneStrain::tied)
+        , fine_fe_(shell.discretization.degree() + 2)
+        , fine_shapes_(fine_fe_, quadrature_.get_points())
+        , dofs_(values_.n_dofs())
+        , u_(values_.n_dofs())
+      {}
+
+      void
+      add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+      {
+        values_.reinit(cell);
+        cell->get_dof_indices(dofs_);
+        for (unsigned int i = 0; i < dofs_.size(); ++i)
+          u_[i] = shell_.displacement(dofs_[i]);
+
+        exact_.clear();
+        for (const auto &unit : fine_fe_.get_unit_support_points())
+          exact_.push_back(shell_.exact_solution.displacement(
+            shell_.discretization.mapping().transform_unit_to_real_cell(cell,
+                                                                        unit)));
+        for (unsigned int q = 0; q < values_.n_points(); ++q)
+          add_point(q);
+      }
+
+      /** L2, H1, energy. */
+      std::array<double, 3> squares{};
+
+    private:
+      void
+      add_point(const unsigned int q)
+      {
+        Field exact;
+        for (unsigned int a = 0; a < exact_.size(); ++a)
+          exact.add(fine_shapes_, q, a, exact_[a]);
+        Field error = exact;
+        for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
+          {
+            Vector3 node;
+            for (unsigned int c = 0; c < spacedim; ++c)
+              node[c] = u_[values_.dof(a, c)];
+            error.add(values_.shapes(), q, a, -node);
+          }
+
+        const auto &frame           = values_.frame(q);
+        const auto &g               = frame.metric_con;
+        const auto  gradient_square = g[0] * (error.du[0] * error.du[0]) +
+                                     g[1] * (error.du[1] * error.du[1]) +
+                                     2. * g[2] * (error.du[0] * error.du[1]);
+        const auto stiffness =
+          shell_.section.stiffness(frame, values_.point(q));
+        const Voigt<> membrane =
+          ShellStrain::membrane(frame, exact.du[0], exact.du[1]) -
+          strain_of(values_.membrane_rows(), q, u_);
+        const Voigt<> bending =
+          ShellStrain::bending(frame, error.du, error.ddu);
+
+        squares[0] += values_.JxW(q) * error.value.norm_square();
+        squares[1] += values_.JxW(q) * gradient_square;
+        squares[2] +=
+          values_.JxW(q) * (membrane * (stiffness.membrane * membrane) +
+                            bending * (stiffness.bending * bending));
+      }
+
+      const SolvedShell                   &shell_;
+      const QGauss<dim>                    quadrature_;
+      ShellCellValues                      values_;
+      const FE_Q<dim, spacedim>            fine_fe_;
+      const ShapeTable                     fine_shapes_;
+      std::vector<types::global_dof_index> dofs_;
+      Vector<double>                       u_;
+      std::vector<Vector3>                 exact_;
+    };
   } // namespace
 
   ErrorNorms
   compute_error_norms(const SolvedShell &shell)
   {
-    const auto               &discretization = shell.discretization;
-    const unsigned int        p              = discretization.degree();
-    const QGauss<dim>         quadrature(p + 3);
-    ShellCellValues           values(discretization,
-                           quadrature,
-                           shell.membrane_strain == MembraneStrain::tied);
-    const FE_Q<dim, spacedim> fine_fe(p + 2);
-    const ShapeTable          fine_shapes(fine_fe, quadrature.get_points());
-
-    std::array<double, 3>                squares{};
-    std::vector<types::global_dof_index> dofs(values.n_dofs());
-    Vector<double>                       u(values.n_dofs());
+    const auto &discretization = shell.discretization;
+    CellErrors  errors(shell);
     run_on_all_ranks(discretization.communicator(), [&]() {
       for (const auto &cell :
            discretization.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
-          {
-            values.reinit(cell);
-            cell->get_dof_indices(dofs);
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              u[i] = shell.displacement(dofs[i]);
-
-            std::vector<Vector3> exact;
-            for (const auto &unit : fine_fe.get_unit_support_points())
-              exact.push_back(shell.exact_solution.displacement(
-                discretization.mapping().transform_unit_to_real_cell(cell,
-                                                                     unit)));
-
-            for (unsigned int q = 0; q < values.n_points(); ++q)
-              {
-                Field field, error;
-                for (unsigned int a = 0; a < exact.size(); ++a)
-                  field.add(fine_shapes, q, a, exact[a]);
-                error = field;
-                for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
-                  {
-                    Vector3 node;
-                    for (unsigned int c = 0; c < spacedim; ++c)
-                      node[c] = u[values.dof(a, c)];
-                    error.add(values.shapes(), q, a, -node);
-                  }
-
-                const auto   &frame      = values.frame(q);
-                const Vector3 gradient[] = {frame.metric_con[0] * error.du[0] +
-                                              frame.metric_con[2] * error.du[1],
-                                            frame.metric_con[2] * error.du[0] +
-                                              frame.metric_con[1] *
-                                                error.du[1]};
-                const auto    stiffness =
-                  shell.section.stiffness(frame, values.point(q));
-                const Voigt<> membrane =
-                  ShellStrain::membrane(frame, field.du[0], field.du[1]) -
-                  strain_of(values.membrane_rows(), q, u);
-                const Voigt<> bending =
-                  ShellStrain::bending(frame, error.du, error.ddu);
-
-                squares[0] += values.JxW(q) * error.value.norm_square();
-                squares[1] += values.JxW(q) * (gradient[0] * error.du[0] +
-                                               gradient[1] * error.du[1]);
-                squares[2] +=
-                  values.JxW(q) * (membrane * (stiffness.membrane * membrane) +
-                                   bending * (stiffness.bending * bending));
-              }
-          }
+          errors.add(cell);
     });
-
-    ErrorNorms norms;
     const auto root = [&](const double square) {
       return std::sqrt(
         Utilities::MPI::sum(square, discretization.communicator()));
     };
-    norms.L2     = root(squares[0]);
-    norms.H1     = root(squares[1]);
-    norms.energy = root(squares[2]);
-    return norms;
+    return {root(errors.squares[0]),
+            root(errors.squares[1]),
+            root(errors.squares[2])};
   }
 } // namespace Nacre

@@ -8,7 +8,7 @@
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/midsurface.h>
 
-#include <algorithm>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -201,6 +201,158 @@ namespace Nacre
         return std::exchange(text, "");
       }
     };
+
+    using Evaluate = std::function<double(const SolvedShell &)>;
+
+    template <typename Function>
+    Evaluate
+    of_energies(const Function &part)
+    {
+      return [part](const SolvedShell &shell) {
+        return std::invoke(part, shell.energies);
+      };
+    }
+
+    Evaluate
+    error_norm(double ErrorNorms::*norm)
+    {
+      return [norm](const SolvedShell &shell) {
+        return compute_error_norms(shell).*norm;
+      };
+    }
+
+    /** A kind without arguments. */
+    struct SimpleKind
+    {
+      std::string name;
+      Evaluate    evaluate;
+      bool        is_error;
+    };
+
+    const std::vector<SimpleKind> &
+    simple_kinds()
+    {
+      static const std::vector<SimpleKind> kinds = {
+        {"maximum displacement", maximum_displacement, false},
+        {"energy", of_energies(&Energies::total), false},
+        {"membrane energy", of_energies(&Energies::membrane), false},
+        {"bending energy", of_energies(&Energies::bending), false},
+        {"edge energy", of_energies(&Energies::edge), false},
+        {"L2 error", error_norm(&ErrorNorms::L2), true},
+        {"H1 error", error_norm(&ErrorNorms::H1), true},
+        {"energy error", error_norm(&ErrorNorms::energy), true}};
+      return kinds;
+    }
+
+    /** "DIRECTION at (point)" */
+    Evaluate
+    parse_displacement(Phrase phrase, const Constants &constants)
+    {
+      const std::string &where = phrase.where;
+      const auto         direction =
+        parse_direction(phrase.up_to("at"), where, constants);
+      AssertThrow(!phrase.text.empty(),
+                  ExcMessage(where + ": write 'displacement z at (x, y, z)'."));
+      const auto point = evaluate_point(phrase.text, where, constants);
+      return [=](const SolvedShell &shell) {
+        return displacement_at(shell, point, direction, where);
+      };
+    }
+
+    /** "DIRECTION of EDGE" of a reaction or, "about (point)", of its moment */
+    Evaluate
+    parse_reaction(Phrase            phrase,
+                   const bool        is_moment,
+                   const Midsurface &midsurface,
+                   const Constants  &constants)
+    {
+      const std::string &where = phrase.where;
+      const auto         direction =
+        parse_direction(phrase.up_to("of"), where, constants);
+      AssertThrow(direction && !phrase.text.empty(),
+                  ExcMessage(where + ": write 'reaction x of EDGE' or "
+                                     "'moment x of EDGE'."));
+      const auto id =
+        midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"), where);
+      if (!is_moment)
+        return [=](const SolvedShell &shell) {
+          return virtual_work(shell, id, [&](const auto &) {
+            return *direction;
+          });
+        };
+      const auto origin = phrase.text.empty() ?
+                            Point<spacedim>() :
+                            evaluate_point(phrase.text, where, constants);
+      return [=](const SolvedShell &shell) {
+        return reaction_moment(shell, id, *direction, origin);
+      };
+    }
+
+    /** Fill evaluate and is_error from the words of a kind. */
+    void
+    parse_kind(QuantitiesOfInterest::Quantity &quantity,
+               Phrase                          phrase,
+               const Midsurface               &midsurface,
+               const ExactSolution            &exact_solution,
+               const Constants                &constants)
+    {
+      const std::string kind = phrase.text;
+      for (const auto &simple : simple_kinds())
+        if (kind == simple.name)
+          {
+            AssertThrow(!simple.is_error || exact_solution.is_known(),
+                        ExcMessage(phrase.where + ": '" + kind +
+                                   "' needs 'Exact solution/Displacement'."));
+            quantity.evaluate = simple.evaluate;
+            quantity.is_error = simple.is_error;
+            return;
+          }
+      for (const auto &simple : simple_kinds())
+        AssertThrow(!phrase.take(simple.name),
+                    ExcMessage(phrase.where + ": '" + phrase.text +
+                               "' after the kind of quantity is not "
+                               "understood."));
+      if (phrase.take("displacement"))
+        quantity.evaluate = parse_displacement(phrase, constants);
+      else if (phrase.take("reaction"))
+        quantity.evaluate =
+          parse_reaction(phrase, false, midsurface, constants);
+      else if (phrase.take("moment"))
+        quantity.evaluate = parse_reaction(phrase, true, midsurface, constants);
+      else
+        AssertThrow(false,
+                    ExcMessage(
+                      Text::unknown_name(phrase.where,
+                                         "kind of quantity",
+                                         kind,
+                                         QuantitiesOfInterest::kinds())));
+    }
+
+    /** A quantity's name is a column of the table. */
+    void
+    check_name(const std::string &name,
+               const std::string &entry,
+               const std::string &parameter)
+    {
+      static const std::set<std::string> columns = {"element",
+                                                    "degree",
+                                                    "eta",
+                                                    "thickness",
+                                                    "cells",
+                                                    "dofs",
+                                                    "ratio",
+                                                    "rate",
+                                                    "setup_s",
+                                                    "assembly_s",
+                                                    "solve_s"};
+      AssertThrow(!name.empty(),
+                  ExcMessage(parameter + ": '" + entry +
+                             "' has no name before '='."));
+      AssertThrow(columns.count(name) == 0,
+                  ExcMessage(parameter + ": '" + name +
+                             "' is another column of the table; choose "
+                             "another name."));
+    }
   } // namespace
 
   QuantitiesOfInterest::QuantitiesOfInterest()
@@ -219,17 +371,10 @@ namespace Nacre
   std::vector<std::string>
   QuantitiesOfInterest::kinds()
   {
-    return {"displacement",
-            "maximum displacement",
-            "energy",
-            "membrane energy",
-            "bending energy",
-            "edge energy",
-            "reaction",
-            "moment",
-            "L2 error",
-            "H1 error",
-            "energy error"};
+    std::vector<std::string> names = {"displacement", "reaction", "moment"};
+    for (const auto &simple : simple_kinds())
+      names.push_back(simple.name);
+    return names;
   }
 
   void
@@ -239,32 +384,14 @@ namespace Nacre
   {
     const std::string parameter = "Quantities/Quantities";
     quantities_.clear();
-    const std::vector<std::string> column_names = {"element",
-                                                   "degree",
-                                                   "eta",
-                                                   "thickness",
-                                                   "cells",
-                                                   "dofs",
-                                                   "ratio",
-                                                   "rate",
-                                                   "setup_s",
-                                                   "assembly_s",
-                                                   "solve_s"};
-    std::set<std::string>          names;
+    std::set<std::string> names;
     for (const auto &entry : Text::split(text_, ';', parameter))
       {
         const auto [name, definition] = Text::key_and_value(entry);
         AssertThrow(!definition.empty(),
                     ExcMessage(parameter + ": '" + entry +
                                "' is not of the form 'name = kind'."));
-        AssertThrow(!name.empty(),
-                    ExcMessage(parameter + ": '" + entry +
-                               "' has no name before '='."));
-        AssertThrow(std::find(column_names.begin(), column_names.end(), name) ==
-                      column_names.end(),
-                    ExcMessage(parameter + ": '" + name +
-                               "' is another column of the table; choose "
-                               "another name."));
+        check_name(name, entry, parameter);
         AssertThrow(names.insert(name).second,
                     ExcMessage(parameter + ": two quantities are named '" +
                                name + "'."));
@@ -273,7 +400,6 @@ namespace Nacre
         quantity.name = name;
 
         const auto arrow = definition.find("->");
-        Phrase     phrase{Text::trim(definition.substr(0, arrow)), where};
         if (arrow != std::string::npos)
           quantity.reference =
             evaluate_number(Text::trim(definition.substr(arrow + 2)),
@@ -282,93 +408,11 @@ namespace Nacre
         AssertThrow(!quantity.reference || *quantity.reference != 0.,
                     ExcMessage(where + ": the reference is 0, so that there "
                                        "is no ratio to it."));
-
-        const auto kind_text = phrase.text;
-        const auto error     = [&](double ErrorNorms::*norm) {
-          AssertThrow(exact_solution.is_known(),
-                      ExcMessage(where + ": '" + kind_text +
-                                 "' needs 'Exact solution/Displacement'."));
-          quantity.is_error = true;
-          quantity.evaluate = [norm](const SolvedShell &shell) {
-            return compute_error_norms(shell).*norm;
-          };
-        };
-        if (phrase.take("displacement"))
-          {
-            const auto direction =
-              parse_direction(phrase.up_to("at"), where, constants);
-            AssertThrow(!phrase.text.empty(),
-                        ExcMessage(where +
-                                   ": write 'displacement z at (x, y, z)'."));
-            const auto point = evaluate_point(phrase.text, where, constants);
-            phrase.text.clear();
-            quantity.evaluate = [=](const SolvedShell &shell) {
-              return displacement_at(shell, point, direction, where);
-            };
-          }
-        else if (phrase.take("maximum displacement"))
-          quantity.evaluate = maximum_displacement;
-        else if (phrase.take("energy error"))
-          error(&ErrorNorms::energy);
-        else if (phrase.take("L2 error"))
-          error(&ErrorNorms::L2);
-        else if (phrase.take("H1 error"))
-          error(&ErrorNorms::H1);
-        else if (phrase.take("energy"))
-          quantity.evaluate = [](const SolvedShell &shell) {
-            return shell.energies.total();
-          };
-        else if (phrase.take("membrane energy"))
-          quantity.evaluate = [](const SolvedShell &shell) {
-            return shell.energies.membrane;
-          };
-        else if (phrase.take("bending energy"))
-          quantity.evaluate = [](const SolvedShell &shell) {
-            return shell.energies.bending;
-          };
-        else if (phrase.take("edge energy"))
-          quantity.evaluate = [](const SolvedShell &shell) {
-            return shell.energies.edge;
-          };
-        else if (kind_text.compare(0, 8, "reaction") == 0 ||
-                 kind_text.compare(0, 6, "moment") == 0)
-          {
-            const bool is_moment = phrase.take("moment");
-            if (!is_moment)
-              phrase.take("reaction");
-            const auto direction =
-              parse_direction(phrase.up_to("of"), where, constants);
-            AssertThrow(direction && !phrase.text.empty(),
-                        ExcMessage(where + ": write 'reaction x of EDGE' or "
-                                           "'moment x of EDGE'."));
-            const auto id =
-              midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"),
-                                 where);
-            const auto origin = phrase.text.empty() ?
-                                  Point<spacedim>() :
-                                  evaluate_point(phrase.text, where, constants);
-            phrase.text.clear();
-            if (is_moment)
-              quantity.evaluate = [=](const SolvedShell &shell) {
-                return reaction_moment(shell, id, *direction, origin);
-              };
-            else
-              quantity.evaluate = [=](const SolvedShell &shell) {
-                return virtual_work(shell, id, [&](const auto &) {
-                  return *direction;
-                });
-              };
-          }
-        else
-          AssertThrow(false,
-                      ExcMessage(Text::unknown_name(where,
-                                                    "kind of quantity",
-                                                    kind_text,
-                                                    kinds())));
-        AssertThrow(phrase.text.empty(),
-                    ExcMessage(where + ": '" + phrase.text +
-                               "' after the kind of quantity is not "
-                               "understood."));
+        parse_kind(quantity,
+                   {Text::trim(definition.substr(0, arrow)), where},
+                   midsurface,
+                   exact_solution,
+                   constants);
         quantities_.push_back(std::move(quantity));
       }
   }

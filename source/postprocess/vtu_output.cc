@@ -217,24 +217,6 @@ namespace Nacre
       Vector<double>                       membrane_strains_;
       Vector<double>                       bending_strains_;
     };
-
-    /** Call @p function; if it throws on any rank, all throw its message. */
-    void
-    run_on_all(const MPI_Comm               communicator,
-               const std::function<void()> &function)
-    {
-      std::string error;
-      try
-        {
-          function();
-        }
-      catch (const std::exception &exception)
-        {
-          error = error_text(exception);
-        }
-      for (const auto &text : Utilities::MPI::all_gather(communicator, error))
-        AssertThrow(text.empty(), ExcMessage(text));
-    }
   } // namespace
 
 
@@ -348,7 +330,7 @@ namespace Nacre
     };
 
     std::unique_ptr<ShellFields> shell_fields;
-    run_on_all(communicator, [&] {
+    run_on_all_ranks(communicator, [&] {
       const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
       shell_fields            = std::make_unique<ShellFields>(discretization,
                                                    section,

@@ -17,6 +17,17 @@
 
 namespace Nacre
 {
+  namespace
+  {
+    std::string
+    in_text(const double number, const int n_digits)
+    {
+      std::ostringstream text;
+      text << std::setprecision(n_digits) << number;
+      return text.str();
+    }
+  } // namespace
+
   ConvergenceStudy::Heading::Heading()
     : ParameterAcceptor("/")
   {
@@ -130,31 +141,88 @@ namespace Nacre
         name_ = path.string();
       }
     check_lists();
-    const auto constants = parse_constants(heading_.constants, "Constants");
     for (const auto &shell_case : make_cases())
-      {
-        problem_.prepare(constants, shell_case);
-        quantities_.prepare(problem_.midsurface(),
-                            problem_.exact_solution(),
-                            problem_.constants());
-      }
+      prepare_case(shell_case);
   }
 
   void
-  ConvergenceStudy::run(Log &log)
+  ConvergenceStudy::prepare_case(const ShellCase &shell_case)
   {
-    const auto constants = parse_constants(heading_.constants, "Constants");
-    const std::string base =
-      (std::filesystem::path(output_folder_) / name_).string();
+    problem_.prepare(parse_constants(heading_.constants, "Constants"),
+                     shell_case);
+    quantities_.prepare(problem_.midsurface(),
+                        problem_.exact_solution(),
+                        problem_.constants());
+  }
+
+  std::string
+  ConvergenceStudy::base_name() const
+  {
+    return (std::filesystem::path(output_folder_) / name_).string();
+  }
+
+  void
+  ConvergenceStudy::prepare_output() const
+  {
     run_on_root(communicator_, [&]() {
       create_folder(output_folder_);
       // A run that fails must not leave an older one's results.
       std::error_code not_there;
       for (const auto *const ending : {".csv", ".txt", ".tex", ".pvd"})
-        std::filesystem::remove(base + ending, not_there);
-      write_used_parameters(base + ".used.prm");
+        std::filesystem::remove(base_name() + ending, not_there);
+      write_used_parameters(base_name() + ".used.prm");
     });
+  }
 
+  ResultsTable::Row
+  ConvergenceStudy::make_row(const ShellCase &shell_case) const
+  {
+    const SolvedShell &shell = problem_.solution();
+    ResultsTable::Row  row;
+    row.element = problem_.element();
+    row.degree  = shell_case.degree;
+    row.cells   = shell.discretization.triangulation().n_global_active_cells();
+    row.dofs    = shell.discretization.dof_handler().n_dofs();
+    row.eta     = shell_case.eta ? in_text(*shell_case.eta, 4) : "default";
+    const auto thickness = problem_.constants().find("h");
+    row.thickness        = thickness == problem_.constants().end() ?
+                             "varies" :
+                             in_text(thickness->second, 6);
+    row.setup_s          = problem_.times().setup;
+    row.assembly_s       = problem_.times().assembly;
+    row.solve_s          = problem_.times().solve;
+    for (const auto &quantity : quantities_.quantities())
+      {
+        row.values.push_back(quantity.evaluate(shell));
+        AssertThrow(std::isfinite(row.values.back()),
+                    ExcMessage("The quantity '" + quantity.name +
+                               "' is not a finite number. Are the loads "
+                               "or the section's values extreme?"));
+        row.references.push_back(quantity.reference);
+      }
+    return row;
+  }
+
+  std::string
+  ConvergenceStudy::progress_line(const ResultsTable::Row &row) const
+  {
+    std::ostringstream line;
+    line << "p " << row.degree << ", h " << row.thickness << ", eta "
+         << in_text(problem_.eta(), 4) << ", " << row.cells << " cells, "
+         << row.dofs << " dofs";
+    if (report_seconds_)
+      line << ", " << std::fixed << std::setprecision(2)
+           << row.setup_s + row.assembly_s + row.solve_s << " s";
+    if (!row.values.empty())
+      line << ", " << quantities_.quantities().front().name << " = "
+           << std::scientific << std::setprecision(6) << row.values.front();
+    return line.str();
+  }
+
+  void
+  ConvergenceStudy::run(Log &log)
+  {
+    prepare_output();
     std::vector<ResultsTable::Quantity> columns;
     for (const auto &quantity : quantities_.quantities())
       columns.push_back({quantity.name,
@@ -166,55 +234,15 @@ namespace Nacre
     const auto cases = make_cases();
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
-        problem_.prepare(constants, cases[k]);
-        quantities_.prepare(problem_.midsurface(),
-                            problem_.exact_solution(),
-                            problem_.constants());
+        prepare_case(cases[k]);
         problem_.solve(log);
-        const SolvedShell &shell = problem_.solution();
-
-        ResultsTable::Row row;
-        row.element = problem_.element();
-        row.degree  = cases[k].degree;
-        row.cells =
-          shell.discretization.triangulation().n_global_active_cells();
-        row.dofs = shell.discretization.dof_handler().n_dofs();
-        std::ostringstream eta, thickness, line;
-        eta << std::setprecision(4) << problem_.eta();
-        row.eta = cases[k].eta ? eta.str() : "default";
-        thickness << std::setprecision(6);
-        if (problem_.constants().count("h") > 0)
-          thickness << problem_.constants().at("h");
-        else
-          thickness << "varies";
-        row.thickness  = thickness.str();
-        row.setup_s    = problem_.times().setup;
-        row.assembly_s = problem_.times().assembly;
-        row.solve_s    = problem_.times().solve;
-        for (const auto &quantity : quantities_.quantities())
-          {
-            row.values.push_back(quantity.evaluate(shell));
-            AssertThrow(std::isfinite(row.values.back()),
-                        ExcMessage("The quantity '" + quantity.name +
-                                   "' is not a finite number. Are the loads "
-                                   "or the section's values extreme?"));
-            row.references.push_back(quantity.reference);
-          }
+        const auto row = make_row(cases[k]);
         table.add_row(row);
-
-        line << "p " << row.degree << ", h " << row.thickness << ", eta "
-             << eta.str() << ", " << row.cells << " cells, " << row.dofs
-             << " dofs";
-        if (report_seconds_)
-          line << ", " << std::fixed << std::setprecision(2)
-               << row.setup_s + row.assembly_s + row.solve_s << " s";
-        if (!row.values.empty())
-          line << ", " << columns.front().name << " = " << std::scientific
-               << std::setprecision(6) << row.values.front();
         log.progress() << '[' << k + 1 << '/' << cases.size() << "] "
-                       << line.str() << std::endl;
+                       << progress_line(row) << std::endl;
 
-        run_on_root(communicator_, [&]() { table.write_files(base); });
+        run_on_root(communicator_, [&]() { table.write_files(base_name()); });
+        const SolvedShell &shell = problem_.solution();
         if (write_vtu_)
           vtu_output.write(shell.discretization,
                            shell.section,
@@ -229,7 +257,8 @@ namespace Nacre
     table.write_text(text, report_seconds_);
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
-    log.results() << text.str() << "\nResults: " << base << ".csv (.txt, .tex"
-                  << (write_vtu_ ? ", .pvd)" : ")") << std::endl;
+    log.results() << text.str() << "\nResults: " << base_name()
+                  << ".csv (.txt, .tex" << (write_vtu_ ? ", .pvd)" : ")")
+                  << std::endl;
   }
 } // namespace Nacre

@@ -11,25 +11,6 @@
 
 using namespace Tests;
 
-Point<3>
-bend(const Point<3> &x)
-{
-  return {x[0] + 0.1 * x[1] * x[2],
-          x[1] + 0.1 * std::sin(x[0]),
-          x[2] + 0.3 * x[0] * x[0] - 0.2 * x[1] * x[1] +
-            0.15 * std::sin(x[0] * x[1])};
-}
-
-Vector3
-some_field(const Point<3> &x)
-{
-  Vector3 u;
-  u[0] = std::sin(x[0] + 2. * x[1]);
-  u[1] = std::cos(x[1] - x[2]);
-  u[2] = std::sin(2. * x[0]) * std::cos(x[1]) + x[2] * x[2];
-  return u;
-}
-
 /** 2 x 2 cells with a fold by 1.2 rad along their middle. */
 Mesh
 creased_mesh()

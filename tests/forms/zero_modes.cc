@@ -26,31 +26,12 @@ folded_mesh(const double angle)
   return mesh;
 }
 
-Point<3>
-bend(const Point<3> &x)
-{
-  return {x[0] + 0.1 * x[1] * x[2],
-          x[1] + 0.1 * std::sin(x[0]),
-          x[2] + 0.3 * x[0] * x[0] - 0.2 * x[1] * x[1] +
-            0.15 * std::sin(x[0] * x[1])};
-}
-
 Vector3
 rigid_motion(const unsigned int k, const Point<3> &x)
 {
   Vector3 e;
   e[k % 3] = 1.;
   return k < 3 ? e : cross_product_3d(e, Vector3(x));
-}
-
-Vector3
-some_field(const Point<3> &x)
-{
-  Vector3 u;
-  u[0] = std::sin(x[0] + 2. * x[1]);
-  u[1] = std::cos(x[1] - x[2]);
-  u[2] = std::sin(2. * x[0]) * std::cos(x[1]) + x[2] * x[2];
-  return u;
 }
 
 void

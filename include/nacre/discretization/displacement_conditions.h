@@ -74,6 +74,10 @@ namespace Nacre
     std::vector<EdgeNode>
     collect_edge_nodes() const;
 
+    /** Nodes of all ranks from the plain numbers @p mine of each. */
+    std::vector<EdgeNode>
+    gather(const std::vector<double> &mine) const;
+
     /** One entry a node and edge, with mean directions. */
     static std::vector<EdgeNode>
     average(const std::vector<EdgeNode> &nodes);
@@ -84,13 +88,36 @@ namespace Nacre
                  const types::boundary_id     id,
                  const std::string           &source) const;
 
+    /**
+     * The unit vectors along which a condition prescribes the displacement.
+     * @param plane unit normal of the plane that holds the edge
+     */
+    static std::vector<Vector3>
+    directions_of(const Direction direction,
+                  const EdgeNode &node,
+                  const Vector3  &plane);
+
     void
     add_edge_conditions(const std::vector<EdgeNode> &nodes);
 
     void
     add_point_supports();
 
-    /** Add the lines of one node; components must agree. */
+    /**
+     * Orthonormal components that say the same as the node's, first come first;
+     * throws where they contradict each other.
+     */
+    static std::vector<Component>
+    independent_components(const Node &node);
+
+    /**
+     * Solve the components for one space component each, with the largest
+     * coefficients; returns which.
+     */
+    static std::vector<unsigned int>
+    solve_for_pivots(std::vector<Component> &basis);
+
+    /** Add the lines of one node. */
     void
     constrain(const Node &node);
 

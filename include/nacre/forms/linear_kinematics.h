@@ -69,6 +69,34 @@ namespace Nacre
     double
     full_integration_share() const;
 
+    /**
+     * Factors of the three terms at an edge point, quadrature weight included:
+     * penalty [[theta(u)]] [[theta(v)]] + symmetry {m_nn(v)} [[theta(u)]] +
+     * consistency [[theta(v)]] {m_nn(u)}.
+     */
+    struct Fluxes
+    {
+      double penalty;
+      double symmetry;
+      double consistency;
+    };
+
+    /** Those of the point @p q, to which hinge_ is set. */
+    Fluxes
+    fluxes(const ShellEdgeValues &edge,
+           const unsigned int     q,
+           const double           penalty) const;
+
+    /** Rows whose product is the tangent of the point of hinge_. */
+    void
+    fill_edge_rows(const unsigned int q, const Fluxes &fluxes);
+
+    void
+    add_edge_residual(const Fluxes         &fluxes,
+                      const double          rotation,
+                      const Vector<double> &u,
+                      LocalTerms           &terms) const;
+
     const Discretization &discretization_;
     const SectionLaw     &section_;
     const MembraneStrain  membrane_strain_;

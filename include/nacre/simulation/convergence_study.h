@@ -6,6 +6,7 @@
 
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/postprocess/results_table.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -60,6 +61,25 @@ namespace Nacre
     /** All combinations: thickness, penalty, degree, refinement. */
     std::vector<ShellCase>
     make_cases() const;
+
+    /** Read and check everything for one case. */
+    void
+    prepare_case(const ShellCase &shell_case);
+
+    /** Folder and name of the output files, without their endings. */
+    std::string
+    base_name() const;
+
+    /** Make the folder, remove older results, write the .used.prm. */
+    void
+    prepare_output() const;
+
+    /** The row of the case just solved. */
+    ResultsTable::Row
+    make_row(const ShellCase &shell_case) const;
+
+    std::string
+    progress_line(const ResultsTable::Row &row) const;
 
     const MPI_Comm communicator_;
     Heading        heading_;
