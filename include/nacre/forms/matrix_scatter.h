@@ -24,8 +24,8 @@ namespace Nacre
    * A dense local matrix whose dofs are all unconstrained and this rank's goes
    * straight into the rows of the sparse matrix: one pass over each sorted row
    * instead of a search for each entry. Anything else is left to
-   * AffineConstraints::distribute_local_to_global(). Adding entry by entry
-   * took more than half the assembly time at p = 2.
+   * AffineConstraints::distribute_local_to_global(), which would take the
+   * larger part of the assembly at p = 2.
    */
   class MatrixScatter
   {
