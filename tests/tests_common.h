@@ -154,7 +154,8 @@ namespace Tests
     };
     return std::make_unique<Discretization>(make_triangulation(mesh),
                                             position,
-                                            degree,
+                                            Element{ElementType::lagrange,
+                                                    degree},
                                             mapping_degree);
   }
 

@@ -2,11 +2,14 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/discretization/nodal_mapping.h>
 #include <nacre/problem/midsurface.h>
 
 #include <deal.II/base/bounding_box.h>
 
 #include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/mapping_q_cache.h>
 
 #include <limits>
 
@@ -36,7 +39,7 @@ namespace Nacre
     /** Point and derivatives of a mid-surface given by nodes. */
     struct LocalSurface
     {
-      const FE_Q<dim, spacedim>          &fe;
+      const FiniteElement<dim, spacedim> &fe;
       const std::vector<Point<spacedim>> &nodes;
 
       Point<spacedim>
@@ -69,6 +72,7 @@ namespace Nacre
      */
     Point<dim>
     project(const LocalSurface    &surface,
+            const ReferenceCell   &cell,
             const Point<spacedim> &target,
             Point<dim>             start)
     {
@@ -90,6 +94,17 @@ namespace Nacre
             next[0] = start[0] + b_1 / a_11;
           for (unsigned int alpha = 0; alpha < dim; ++alpha)
             next[alpha] = std::min(1., std::max(0., next[alpha]));
+          if (cell == ReferenceCells::Triangle && next[0] + next[1] > 1.)
+            {
+              // Along the slanting edge, (1 - s, s).
+              const auto   along = a[1] - a[0];
+              const double s =
+                start[1] +
+                (along * (difference + (start[0] + start[1] - 1.) * a[0])) /
+                  (along * along);
+              next[1] = std::min(1., std::max(0., s));
+              next[0] = 1. - next[1];
+            }
           const double step = next.distance(start);
           start             = next;
           if (step < 1e-14)
@@ -101,15 +116,17 @@ namespace Nacre
 
   Discretization::Discretization(const Midsurface  &midsurface,
                                  const MPI_Comm     communicator,
-                                 const unsigned int degree,
+                                 const Element     &element,
                                  const unsigned int mapping_degree,
                                  const unsigned int n_refinements)
     : Discretization(
-        midsurface.create_triangulation(communicator, n_refinements),
+        midsurface.create_triangulation(communicator,
+                                        element.reference_cell(),
+                                        n_refinements),
         [&midsurface](const auto &cell, const auto &unit) {
           return midsurface.position(cell, unit);
         },
-        degree,
+        element,
         mapping_degree)
   {}
 
@@ -118,14 +135,15 @@ namespace Nacre
     const std::function<
       Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
                       const Point<dim> &)> &position,
-    const unsigned int                      degree,
+    const Element                          &element,
     const unsigned int                      mapping_degree)
     : triangulation_(checked(std::move(triangulation)))
-    , mapping_degree_(mapping_degree == 0 ? degree : mapping_degree)
-    , scalar_fe_(degree)
-    , fe_(scalar_fe_, spacedim)
+    , element_(element)
+    , scalar_fe_(element.make_scalar_fe())
+    , face_nodes_(element.face_nodes())
+    , fe_(*scalar_fe_, spacedim)
     , dof_handler_(*triangulation_)
-    , geometry_fe_(FE_Q<dim, spacedim>(mapping_degree_), spacedim)
+    , geometry_fe_(*element.make_geometry_fe(mapping_degree), spacedim)
     , geometry_dof_handler_(*triangulation_)
   {
     dof_handler_.distribute_dofs(fe_);
@@ -140,23 +158,24 @@ namespace Nacre
         const auto [c, a]            = fe_.system_to_component_index(i);
         node_dofs_[spacedim * a + c] = i;
       }
-    build_geometry(position);
+    build_geometry(position, mapping_degree);
   }
 
   void
   Discretization::build_geometry(
     const std::function<
       Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
-                      const Point<dim> &)> &position)
+                      const Point<dim> &)> &position,
+    const unsigned int                      mapping_degree)
   {
     geometry_dof_handler_.distribute_dofs(geometry_fe_);
     const auto &scalar_geometry_fe = geometry_fe_.base_element(0);
-    geometry_to_nodes_.reinit(scalar_fe_.n_dofs_per_cell(),
+    geometry_to_nodes_.reinit(scalar_fe_->n_dofs_per_cell(),
                               scalar_geometry_fe.n_dofs_per_cell());
     for (unsigned int a = 0; a < geometry_to_nodes_.m(); ++a)
       for (unsigned int b = 0; b < geometry_to_nodes_.n(); ++b)
         geometry_to_nodes_(a, b) =
-          scalar_geometry_fe.shape_value(b, scalar_fe_.unit_support_point(a));
+          scalar_geometry_fe.shape_value(b, scalar_fe_->unit_support_point(a));
 
     const IndexSet &owned = geometry_dof_handler_.locally_owned_dofs();
     geometry_.reinit(owned,
@@ -183,17 +202,43 @@ namespace Nacre
     make_hanging_node_constraints(geometry_dof_handler_).distribute(geometry_);
     geometry_.update_ghost_values();
 
-    mapping_ = std::make_unique<MappingQCache<dim, spacedim>>(mapping_degree_);
-    mapping_->initialize(MappingQ<dim, spacedim>(1),
-                         geometry_dof_handler_,
-                         geometry_,
-                         false);
+    if (element_.type == ElementType::lagrange)
+      {
+        auto mapping = std::make_unique<MappingQCache<dim, spacedim>>(
+          mapping_degree == 0 ? degree() : mapping_degree);
+        mapping->initialize(MappingQ<dim, spacedim>(1),
+                            geometry_dof_handler_,
+                            geometry_,
+                            false);
+        mapping_ = std::move(mapping);
+      }
+    else
+      mapping_ =
+        std::make_unique<NodalMapping>(scalar_geometry_fe,
+                                       [this](const auto &cell) {
+                                         return geometry_positions(cell);
+                                       });
   }
 
-  unsigned int
-  Discretization::degree() const
+  std::vector<Point<spacedim>>
+  Discretization::geometry_positions(
+    const Triangulation<dim, spacedim>::cell_iterator &cell) const
   {
-    return scalar_fe_.degree;
+    const DoFHandler<dim, spacedim>::active_cell_iterator geometry_cell(
+      triangulation_.get(),
+      cell->level(),
+      cell->index(),
+      &geometry_dof_handler_);
+    std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
+    geometry_cell->get_dof_indices(dofs);
+
+    std::vector<Point<spacedim>> positions(dofs.size() / spacedim);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        const auto [c, b] = geometry_fe_.system_to_component_index(i);
+        positions[b][c]   = geometry_(dofs[i]);
+      }
+    return positions;
   }
 
   MPI_Comm
@@ -220,10 +265,10 @@ namespace Nacre
     return dof_handler_;
   }
 
-  const FE_Q<dim, spacedim> &
+  const FiniteElement<dim, spacedim> &
   Discretization::scalar_fe() const
   {
-    return scalar_fe_;
+    return *scalar_fe_;
   }
 
   const std::vector<unsigned int> &
@@ -254,21 +299,11 @@ namespace Nacre
   Discretization::node_positions(
     const Triangulation<dim, spacedim>::active_cell_iterator &cell) const
   {
-    const DoFHandler<dim, spacedim>::active_cell_iterator geometry_cell(
-      triangulation_.get(),
-      cell->level(),
-      cell->index(),
-      &geometry_dof_handler_);
-    std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
-    geometry_cell->get_dof_indices(dofs);
-
-    std::vector<Point<spacedim>> positions(scalar_fe_.n_dofs_per_cell());
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      {
-        const auto [c, b] = geometry_fe_.system_to_component_index(i);
-        for (unsigned int a = 0; a < positions.size(); ++a)
-          positions[a][c] += geometry_(dofs[i]) * geometry_to_nodes_(a, b);
-      }
+    const auto                   geometry = geometry_positions(cell);
+    std::vector<Point<spacedim>> positions(scalar_fe_->n_dofs_per_cell());
+    for (unsigned int a = 0; a < positions.size(); ++a)
+      for (unsigned int b = 0; b < geometry.size(); ++b)
+        positions[a] += geometry_to_nodes_(a, b) * geometry[b];
     return positions;
   }
 
@@ -292,11 +327,12 @@ namespace Nacre
                              });
           if (nearest->distance(point) - size >= best.distance)
             continue;
-          const LocalSurface surface{scalar_fe_, nodes};
+          const LocalSurface surface{*scalar_fe_, nodes};
           const Point<dim>   unit =
             project(surface,
+                    element_.reference_cell(),
                     point,
-                    scalar_fe_.unit_support_point(nearest - nodes.begin()));
+                    scalar_fe_->unit_support_point(nearest - nodes.begin()));
           const Point<spacedim> position = surface.position(unit);
           // The first of several cells that share the point keeps it.
           if (position.distance(point) < best.distance - 1e-10 * size)

@@ -35,6 +35,7 @@ namespace Nacre
     /** Unit normal and outward conormal at a point of a face. */
     std::pair<Vector3, Vector3>
     edge_directions(const DerivativeForm<1, dim, spacedim> &jacobian,
+                    const ReferenceCell                    &cell,
                     const unsigned int                      face)
     {
       Vector3 a_1, a_2;
@@ -43,13 +44,12 @@ namespace Nacre
           a_1[c] = jacobian[c][0];
           a_2[c] = jacobian[c][1];
         }
-      // Faces 0, 1 run along xi2, faces 2, 3 along xi1.
-      const Vector3 normal   = unit(cross_product_3d(a_1, a_2));
-      const Vector3 along    = face < 2 ? a_2 : a_1;
-      Vector3       conormal = unit(cross_product_3d(along, normal));
-      const Vector3 outward =
-        (face % 2 == 1 ? 1. : -1.) * (face < 2 ? a_1 : a_2);
-      if (conormal * outward < 0.)
+      const auto    along   = cell.unit_tangential_vectors<dim>(face, 0);
+      const auto    outward = cell.unit_normal_vectors<dim>(face);
+      const Vector3 normal  = unit(cross_product_3d(a_1, a_2));
+      Vector3       conormal =
+        unit(cross_product_3d(along[0] * a_1 + along[1] * a_2, normal));
+      if (conormal * (outward[0] * a_1 + outward[1] * a_2) < 0.)
         conormal *= -1.;
       return {normal, conormal};
     }
@@ -92,8 +92,9 @@ namespace Nacre
     const auto &fe        = discretization_.scalar_fe();
     const auto &node_dofs = discretization_.node_dofs();
 
-    FE_Nothing<dim, spacedim> fe_nothing;
-    FEValues<dim, spacedim>   fe_values(discretization_.mapping(),
+    FE_Nothing<dim, spacedim> fe_nothing(
+      discretization_.element().reference_cell());
+    FEValues<dim, spacedim> fe_values(discretization_.mapping(),
                                       fe_nothing,
                                       fe.get_unit_support_points(),
                                       update_jacobians |
@@ -113,19 +114,19 @@ namespace Nacre
             fe_values.reinit(
               static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell));
             cell->get_dof_indices(dofs);
-            for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
-              if (fe.has_support_on_face(a, face))
-                {
-                  const auto [normal, conormal] =
-                    edge_directions(fe_values.jacobian(a), face);
-                  for (unsigned int c = 0; c < spacedim; ++c)
-                    mine.push_back(dofs[node_dofs[spacedim * a + c]]);
-                  mine.push_back(cell->face(face)->boundary_id());
-                  for (const auto &v : {Vector3(fe_values.quadrature_point(a)),
-                                        normal,
-                                        conormal})
-                    mine.insert(mine.end(), v.begin_raw(), v.end_raw());
-                }
+            for (const unsigned int a : discretization_.face_nodes(face))
+              {
+                const auto [normal, conormal] =
+                  edge_directions(fe_values.jacobian(a),
+                                  cell->reference_cell(),
+                                  face);
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  mine.push_back(dofs[node_dofs[spacedim * a + c]]);
+                mine.push_back(cell->face(face)->boundary_id());
+                for (const auto &v :
+                     {Vector3(fe_values.quadrature_point(a)), normal, conormal})
+                  mine.insert(mine.end(), v.begin_raw(), v.end_raw());
+              }
           }
     return gather(mine);
   }

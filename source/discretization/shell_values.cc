@@ -43,27 +43,6 @@ namespace Nacre
                                 tangent(fe_values.jacobian(q), 1),
                                 derivatives);
     }
-
-    /** Lagrange polynomial k of the @p nodes at @p x. */
-    double
-    lagrange(const std::vector<Point<1>> &nodes,
-             const unsigned int           k,
-             const double                 x)
-    {
-      double value = 1.;
-      for (unsigned int m = 0; m < nodes.size(); ++m)
-        if (m != k)
-          value *= (x - nodes[m][0]) / (nodes[k][0] - nodes[m][0]);
-      return value;
-    }
-
-    /** Gauss points along xi1 and xi2 that the component 11, 22, 12 needs. */
-    std::array<unsigned int, 2>
-    n_tying_points(const unsigned int component, const unsigned int degree)
-    {
-      return {{component == 1 ? degree + 1 : degree,
-               component == 0 ? degree + 1 : degree}};
-    }
   } // namespace
 
   ShellCellValues::ShellCellValues(const Discretization  &discretization,
@@ -72,70 +51,27 @@ namespace Nacre
     : discretization_(discretization)
     , quadrature_(quadrature)
     , tied_(tied)
+    , tying_(discretization.element(), quadrature.get_points())
+    , fe_nothing_(discretization.element().reference_cell())
     , fe_values_(discretization.mapping(),
                  fe_nothing_,
                  quadrature,
                  geometry_flags)
     , tying_fe_values_(discretization.mapping(),
                        fe_nothing_,
-                       tying_points(discretization.degree()),
+                       Quadrature<dim>(tying_.points()),
                        update_jacobians)
     , shapes_(discretization.scalar_fe(), quadrature.get_points())
-    , tying_shapes_(discretization.scalar_fe(),
-                    tying_fe_values_.get_quadrature().get_points())
+    , tying_shapes_(discretization.scalar_fe(), tying_.points())
     , frames_(quadrature.size())
     , membrane_rows_(3 * quadrature.size(), n_dofs())
     , bending_rows_(3 * quadrature.size(), n_dofs())
-    , tying_rows_(tying_fe_values_.n_quadrature_points, n_dofs())
-  {
-    make_tyings(quadrature);
-  }
+    , tying_rows_(tying_.samples().size(), n_dofs())
+  {}
 
   ShellCellValues::ShellCellValues(const ShellCellValues &other)
     : ShellCellValues(other.discretization_, other.quadrature_, other.tied_)
   {}
-
-  Quadrature<dim>
-  ShellCellValues::tying_points(const unsigned int degree)
-  {
-    std::vector<Point<dim>> points;
-    for (unsigned int component = 0; component < 3; ++component)
-      {
-        const auto n  = n_tying_points(component, degree);
-        const auto xs = QGauss<1>(n[0]).get_points();
-        const auto ys = QGauss<1>(n[1]).get_points();
-        for (const auto &y : ys)
-          for (const auto &x : xs)
-            points.emplace_back(x[0], y[0]);
-      }
-    return Quadrature<dim>(points);
-  }
-
-  void
-  ShellCellValues::make_tyings(const Quadrature<dim> &quadrature)
-  {
-    unsigned int first = 0;
-    for (unsigned int component = 0; component < 3; ++component)
-      {
-        const auto n  = n_tying_points(component, discretization_.degree());
-        const auto xs = QGauss<1>(n[0]).get_points();
-        const auto ys = QGauss<1>(n[1]).get_points();
-
-        Tying &tying = tyings_[component];
-        tying.first  = first;
-        tying.weights.resize(quadrature.size());
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          for (unsigned int j = 0; j < n[1]; ++j)
-            for (unsigned int i = 0; i < n[0]; ++i)
-              {
-                const double weight = lagrange(xs, i, quadrature.point(q)[0]) *
-                                      lagrange(ys, j, quadrature.point(q)[1]);
-                if (std::abs(weight) > 1e-13)
-                  tying.weights[q].emplace_back(j * n[0] + i, weight);
-              }
-        first += n[0] * n[1];
-      }
-  }
 
   void
   ShellCellValues::reinit(
@@ -176,36 +112,33 @@ namespace Nacre
   void
   ShellCellValues::fill_tied_membrane_rows()
   {
-    for (unsigned int component = 0; component < 3; ++component)
+    for (unsigned int k = 0; k < tying_rows_.m(); ++k)
       {
-        const unsigned int first = tyings_[component].first;
-        const unsigned int last =
-          component < 2 ? tyings_[component + 1].first : tying_rows_.m();
-        for (unsigned int k = first; k < last; ++k)
+        const auto &[point, direction] = tying_.samples()[k];
+        const auto a_1 = tangent(tying_fe_values_.jacobian(point), 0);
+        const auto a_2 = tangent(tying_fe_values_.jacobian(point), 1);
+        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
           {
-            const auto &jacobian = tying_fe_values_.jacobian(k);
-            for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
-              {
-                const auto &dN = tying_shapes_.gradient(k, a);
-                for (unsigned int c = 0; c < spacedim; ++c)
-                  tying_rows_(k, dof(a, c)) =
-                    component < 2 ?
-                      jacobian[c][component] * dN[component] :
-                      jacobian[c][0] * dN[1] + jacobian[c][1] * dN[0];
-              }
-          }
-        for (unsigned int q = 0; q < n_points(); ++q)
-          {
-            double *row = &membrane_rows_(3 * q + component, 0);
-            std::fill(row, row + n_dofs(), 0.);
-            for (const auto &[k, weight] : tyings_[component].weights[q])
-              {
-                const double *sample = &tying_rows_(first + k, 0);
-                for (unsigned int i = 0; i < tying_rows_.n(); ++i)
-                  row[i] += weight * sample[i];
-              }
+            // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)
+            const auto  &dN  = tying_shapes_.gradient(point, a);
+            const double s_1 = direction[0] * dN[0] + direction[2] * dN[1];
+            const double s_2 = direction[1] * dN[1] + direction[2] * dN[0];
+            for (unsigned int c = 0; c < spacedim; ++c)
+              tying_rows_(k, dof(a, c)) = s_1 * a_1[c] + s_2 * a_2[c];
           }
       }
+    for (unsigned int q = 0; q < n_points(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          double *row = &membrane_rows_(3 * q + v, 0);
+          std::fill(row, row + n_dofs(), 0.);
+          for (const auto &[k, weight] : tying_.weights(q, v))
+            {
+              const double *sample = &tying_rows_(k, 0);
+              for (unsigned int i = 0; i < tying_rows_.n(); ++i)
+                row[i] += weight * sample[i];
+            }
+        }
   }
 
   void
@@ -227,35 +160,45 @@ namespace Nacre
 
   ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
     : discretization_(discretization)
-    , quadrature_(QGauss<1>(discretization.degree() + 1))
+    , quadrature_(discretization.element().edge_quadrature())
     , interface_values_(discretization.mapping(),
                         discretization.dof_handler().get_fe(),
-                        QGauss<1>(discretization.degree() + 1),
+                        discretization.element().edge_quadrature(),
                         geometry_flags | update_normal_vectors)
   {
-    const auto  cell   = ReferenceCells::Quadrilateral;
-    const auto &fe     = discretization.scalar_fe();
-    auto        points = std::vector<Point<dim>>(quadrature_.size());
-    tables_.resize(cell.n_faces());
-    for (unsigned int face = 0; face < cell.n_faces(); ++face)
-      {
-        for (unsigned int subface = 0; subface < 2; ++subface)
-          {
-            QProjector<dim>::project_to_subface(cell,
-                                                quadrature_,
-                                                face,
-                                                subface,
-                                                points);
-            tables_[face].emplace_back(fe, points);
-          }
-        QProjector<dim>::project_to_face(cell, quadrature_, face, points);
-        tables_[face].emplace_back(fe, points);
-      }
+    make_tables();
     for (unsigned int side = 0; side < 2; ++side)
       {
         frames_[side].resize(quadrature_.size());
         joint_dofs_[side].resize(discretization.node_dofs().size());
         local_to_joint_[side].resize(discretization.node_dofs().size());
+      }
+  }
+
+  void
+  ShellEdgeValues::make_tables()
+  {
+    const auto  cell   = discretization_.element().reference_cell();
+    const auto &fe     = discretization_.scalar_fe();
+    auto        points = std::vector<Point<dim>>(quadrature_.size());
+    tables_.resize(cell.n_faces());
+    for (const auto face : cell.face_indices())
+      {
+        for (unsigned int subface = 0; subface < 2; ++subface)
+          {
+            // Meshes of triangles have no hanging nodes.
+            if (cell == ReferenceCells::Quadrilateral)
+              QProjector<dim>::project_to_subface(cell,
+                                                  quadrature_,
+                                                  face,
+                                                  subface,
+                                                  points);
+            tables_[face].emplace_back(fe, points);
+          }
+        QProjector<dim>::project_to_face(cell, quadrature_, face, points);
+        tables_[face].emplace_back(fe, points);
+        std::reverse(points.begin(), points.end());
+        tables_[face].emplace_back(fe, points);
       }
   }
 
@@ -274,7 +217,9 @@ namespace Nacre
     interface_values_
       .reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
     n_sides_ = 2;
-    update({{face, neighbor_face}}, {{subface, neighbor_subface}});
+    update({{cell, neighbor}},
+           {{face, neighbor_face}},
+           {{subface, neighbor_subface}});
   }
 
   void
@@ -282,13 +227,15 @@ namespace Nacre
   {
     interface_values_.reinit(cell, face);
     n_sides_ = 1;
-    update({{face, numbers::invalid_unsigned_int}},
+    update({{cell, cell}},
+           {{face, numbers::invalid_unsigned_int}},
            {{numbers::invalid_unsigned_int, numbers::invalid_unsigned_int}});
   }
 
   void
-  ShellEdgeValues::update(const std::array<unsigned int, 2> &faces,
-                          const std::array<unsigned int, 2> &subfaces)
+  ShellEdgeValues::update(const std::array<cell_iterator, 2> &cells,
+                          const std::array<unsigned int, 2>  &faces,
+                          const std::array<unsigned int, 2>  &subfaces)
   {
     dof_indices_ = interface_values_.get_interface_dof_indices();
 
@@ -307,7 +254,10 @@ namespace Nacre
         for (unsigned int k = 0; k < node_dofs.size(); ++k)
           joint_dofs_[side][k] = local_to_joint_[side][node_dofs[k]];
         const bool whole = (subfaces[side] == numbers::invalid_unsigned_int);
-        shapes_[side]    = &tables_[faces[side]][whole ? 2 : subfaces[side]];
+        const unsigned int whole_table =
+          cells[side]->face_orientation(faces[side]) ? 2 : 3;
+        shapes_[side] =
+          &tables_[faces[side]][whole ? whole_table : subfaces[side]];
         for (unsigned int q = 0; q < n_points(); ++q)
           frames_[side][q] =
             frame_from(interface_values_.get_fe_face_values(side), q);

@@ -17,12 +17,13 @@ namespace Nacre
     class CellBound
     {
     public:
-      CellBound(const Discretization &discretization, const SectionLaw &section)
+      CellBound(const Discretization  &discretization,
+                const SectionLaw      &section,
+                const Quadrature<dim> &quadrature)
         : section_(section)
-        , values_(discretization,
-                  QGauss<dim>(discretization.degree() + 1),
-                  false)
+        , values_(discretization, quadrature, false)
         , edge_(discretization)
+        , fe_nothing_(discretization.element().reference_cell())
         , perimeter_values_(discretization.mapping(),
                             fe_nothing_,
                             QGauss<1>(discretization.degree() + 2),
@@ -127,13 +128,14 @@ namespace Nacre
 
   EdgePenalty::EdgePenalty(const Discretization        &discretization,
                            const SectionLaw            &section,
+                           const Quadrature<dim>       &quadrature,
                            const std::optional<double> &eta)
     : eta_(eta)
     , sizes_(discretization.triangulation().n_active_cells())
     , eigenvalues_(discretization.triangulation().n_active_cells())
   {
     run_on_all_ranks(discretization.communicator(), [&]() {
-      CellBound cell_bound(discretization, section);
+      CellBound cell_bound(discretization, section, quadrature);
       for (const auto &cell :
            discretization.dof_handler().active_cell_iterators())
         if (!cell->is_artificial())

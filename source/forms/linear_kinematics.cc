@@ -4,8 +4,6 @@
 #include <nacre/base/mutation.h>
 #include <nacre/forms/linear_kinematics.h>
 
-#include <deal.II/base/quadrature_lib.h>
-
 namespace Nacre
 {
   Energies &
@@ -24,6 +22,22 @@ namespace Nacre
     return names;
   }
 
+  Quadrature<dim>
+  cell_quadrature(const Element &element, const MembraneStrain membrane_strain)
+  {
+    return membrane_strain == MembraneStrain::reduced &&
+               element.type != ElementType::lagrange ?
+             element.reduced_quadrature() :
+             element.full_quadrature();
+  }
+
+  MembraneStrain
+  default_membrane_strain(const ElementType element)
+  {
+    return element == ElementType::serendipity ? MembraneStrain::reduced :
+                                                 MembraneStrain::tied;
+  }
+
   void
   LocalTerms::reinit(const unsigned int n_dofs)
   {
@@ -40,14 +54,15 @@ namespace Nacre
     , section_(section)
     , membrane_strain_(membrane_strain)
     , full_values_(discretization,
-                   QGauss<dim>(discretization.degree() + 1),
+                   cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied)
   {
-    if (membrane_strain == MembraneStrain::reduced)
-      reduced_values_ =
-        std::make_unique<ShellCellValues>(discretization,
-                                          QGauss<dim>(discretization.degree()),
-                                          false);
+    if (membrane_strain == MembraneStrain::reduced &&
+        discretization.element().type == ElementType::lagrange)
+      reduced_values_ = std::make_unique<ShellCellValues>(
+        discretization,
+        discretization.element().reduced_quadrature(),
+        false);
   }
 
   std::unique_ptr<Kinematics>

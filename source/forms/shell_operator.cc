@@ -117,7 +117,10 @@ namespace Nacre
     , section_(section)
     , boundary_conditions_(boundary_conditions)
     , loads_(loads)
-    , penalty_(discretization, section, eta)
+    , penalty_(discretization,
+               section,
+               cell_quadrature(discretization.element(), membrane_strain),
+               eta)
     , kinematics_(std::make_unique<LinearKinematics>(discretization,
                                                      section,
                                                      membrane_strain))

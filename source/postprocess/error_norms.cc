@@ -54,7 +54,7 @@ namespace Nacre
     public:
       explicit CellErrors(const SolvedShell &shell)
         : shell_(shell)
-        , quadrature_(shell.discretization.degree() + 3)
+        , quadrature_(shell.discretization.element().fine_quadrature())
         , values_(shell.discretization,
                   quadrature_,
                   shell.membrane_strain == MembraneStrain::tied)
@@ -120,9 +120,10 @@ namespace Nacre
                             bending * (stiffness.bending * bending));
       }
 
-      const SolvedShell                   &shell_;
-      const QGauss<dim>                    quadrature_;
-      ShellCellValues                      values_;
+      const SolvedShell    &shell_;
+      const Quadrature<dim> quadrature_;
+      ShellCellValues       values_;
+      /** On the square that holds a triangle, too. */
       const FE_Q<dim, spacedim>            fine_fe_;
       const ShapeTable                     fine_shapes_;
       std::vector<types::global_dof_index> dofs_;

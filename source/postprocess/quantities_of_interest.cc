@@ -117,7 +117,6 @@ namespace Nacre
     {
       const auto                   &discretization = shell.discretization;
       const auto                   &node_dofs      = discretization.node_dofs();
-      const auto                   &fe             = discretization.scalar_fe();
       TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
                                       discretization.communicator());
       std::vector<types::global_dof_index> dofs(node_dofs.size());
@@ -130,11 +129,10 @@ namespace Nacre
               {
                 const auto nodes = discretization.node_positions(cell);
                 cell->get_dof_indices(dofs);
-                for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
-                  if (fe.has_support_on_face(a, face))
-                    for (unsigned int c = 0; c < spacedim; ++c)
-                      v(dofs[node_dofs[spacedim * a + c]]) =
-                        virtual_displacement(nodes[a])[c];
+                for (const unsigned int a : discretization.face_nodes(face))
+                  for (unsigned int c = 0; c < spacedim; ++c)
+                    v(dofs[node_dofs[spacedim * a + c]]) =
+                      virtual_displacement(nodes[a])[c];
               }
       v.compress(VectorOperation::insert);
       discretization.hanging_node_constraints().distribute(v);

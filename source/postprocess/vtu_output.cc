@@ -225,14 +225,20 @@ namespace Nacre
                            const MembraneStrain                 membrane_strain,
                            const TrilinosWrappers::MPI::Vector &displacement)
   {
-    const unsigned int   degree = discretization.degree();
-    const QIterated<dim> points(QTrapezoid<1>(), degree);
-    CellStates           states(discretization,
+    const unsigned int degree = discretization.degree();
+    const bool         triangles =
+      discretization.element().type == ElementType::triangle;
+    // Points of a patch: a lexicographic grid, or the nodes of a triangle.
+    const Quadrature<dim> points =
+      triangles ?
+        Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
+        Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), degree));
+    CellStates         states(discretization,
                       section,
                       points,
                       membrane_strain != MembraneStrain::full,
                       displacement);
-    const unsigned int   n_components = get_dataset_names().size();
+    const unsigned int n_components = get_dataset_names().size();
 
     for (const auto &cell :
          discretization.dof_handler().active_cell_iterators())
@@ -255,9 +261,12 @@ namespace Nacre
               for (unsigned int c = 0; c < spacedim; ++c)
                 patch.data(row++, q) = states.position(q)[c];
             }
-          // Corners of the lexicographic grid of points.
-          const std::array<unsigned int, 4> corners = {
-            {0, degree, degree * (degree + 1), points.size() - 1}};
+          const std::vector<unsigned int> corners =
+            triangles ? std::vector<unsigned int>{0, 1, 2} :
+                        std::vector<unsigned int>{0,
+                                                  degree,
+                                                  degree * (degree + 1),
+                                                  points.size() - 1};
           for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
             patch.vertices[vertex] = states.position(corners[vertex]);
           patches_.push_back(std::move(patch));

@@ -6,6 +6,7 @@
 #include <nacre/problem/parametric_surface.h>
 #include <nacre/problem/surfaces.h>
 
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
@@ -38,6 +39,113 @@ namespace Nacre
       for (const SurfaceKind &kind : surface_kinds())
         text += (text.empty() ? "" : " | ") + kind.name;
       return text;
+    }
+
+    using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
+
+    /**
+     * The reference coordinates in the parent of a point of a child cell.
+     * Lines of cells are halved, so that the corners of a child are corners
+     * of the parent or mid-points of its lines, but for the centre of a
+     * quadrilateral.
+     */
+    Point<dim>
+    to_parent(const cell_iterator &parent,
+              const cell_iterator &child,
+              const unsigned int   number,
+              const Point<dim>    &unit)
+    {
+      const ReferenceCell cell = parent->reference_cell();
+      if (cell == ReferenceCells::Quadrilateral)
+        return Point<dim>(0.5 * (number % 2 + unit[0]),
+                          0.5 * (number / 2 + unit[1]));
+      std::array<Point<dim>, 3> corners;
+      for (const unsigned int v : child->vertex_indices())
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const auto line = parent->line(k);
+            const auto end  = [&](const unsigned int e) {
+              return cell.vertex<dim>(cell.face_to_cell_vertices(k, e, 1));
+            };
+            if (parent->vertex_index(k) == child->vertex_index(v))
+              corners[v] = cell.vertex<dim>(k);
+            // Both halves of a line share its middle.
+            const auto first = line->child(0), second = line->child(1);
+            for (const unsigned int e : {0, 1})
+              if (first->vertex_index(e) == child->vertex_index(v) &&
+                  (second->vertex_index(0) == child->vertex_index(v) ||
+                   second->vertex_index(1) == child->vertex_index(v)))
+                corners[v] = 0.5 * (end(0) + Tensor<1, dim>(end(1)));
+          }
+      return corners[0] + unit[0] * (corners[1] - corners[0]) +
+             unit[1] * (corners[2] - corners[0]);
+    }
+
+    /** Local corners of the halves of a quadrilateral, by its diagonal. */
+    constexpr unsigned int halves[2][2][3] = {{{0, 1, 3}, {0, 3, 2}},
+                                              {{0, 1, 2}, {3, 2, 1}}};
+
+    /** The point @p unit of a half in the quadrilateral. */
+    Point<dim>
+    to_quadrilateral(const unsigned int diagonal,
+                     const unsigned int half,
+                     const Point<dim>  &unit)
+    {
+      if (diagonal == 0)
+        return half == 0 ? Point<dim>(unit[0] + unit[1], unit[1]) :
+                           Point<dim>(unit[0], unit[0] + unit[1]);
+      return half == 0 ? unit : Point<dim>(1. - unit[0], 1. - unit[1]);
+    }
+
+    /**
+     * The diagonals along which quadrilaterals are cut, 0 from the first to the
+     * last corner: those between vertices of one colour if two colours do for
+     * the mesh, so that the diagonals of neighbours meet and no corner of a
+     * rectangle lies in one triangle only.
+     */
+    std::vector<unsigned int>
+    choose_diagonals(const std::vector<SurfaceDescription::Cell> &cells,
+                     const unsigned int                           n_vertices)
+    {
+      const unsigned int        none = 2;
+      std::vector<unsigned int> colours(n_vertices, none);
+      // Spread the colours from cell to cell.
+      for (bool spreads = true; spreads;)
+        {
+          spreads = false;
+          for (const auto &cell : cells)
+            {
+              const auto  &v     = cell.vertices;
+              unsigned int known = 4;
+              for (unsigned int i = 0; i < 4; ++i)
+                if (colours[v[i]] != none)
+                  known = i;
+              const bool starts = (known == 4 && &cell == &cells.front());
+              if (known == 4 && !starts)
+                continue;
+              // Corners 0 and 3, and 1 and 2, lie opposite to each other.
+              const auto parity = [](const unsigned int i) {
+                return i == 1 || i == 2 ? 1U : 0U;
+              };
+              for (unsigned int i = 0; i < 4; ++i)
+                if (colours[v[i]] == none)
+                  {
+                    const unsigned int base =
+                      starts ? 0 : colours[v[known]] ^ parity(known);
+                    colours[v[i]] = base ^ parity(i);
+                    spreads       = true;
+                  }
+            }
+        }
+      std::vector<unsigned int> diagonals(cells.size(), 0);
+      for (unsigned int k = 0; k < cells.size(); ++k)
+        {
+          const auto &v = cells[k].vertices;
+          if (colours[v[0]] == colours[v[1]] || colours[v[0]] == colours[v[2]])
+            return std::vector<unsigned int>(cells.size(), 0);
+          diagonals[k] = (colours[v[0]] == 0 ? 0 : 1);
+        }
+      return diagonals;
     }
   } // namespace
 
@@ -107,6 +215,8 @@ namespace Nacre
       kinds[found - names.begin()].make(input),
       input.where());
 
+    diagonals_ =
+      choose_diagonals(surface_->cells(), surface_->vertices().size());
     edge_names_.clear();
     for (const SurfaceDescription::Edge &edge : surface_->edges())
       edge_names_.push_back(edge.name);
@@ -114,15 +224,29 @@ namespace Nacre
 
 
   std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
-  Midsurface::create_triangulation(const MPI_Comm     communicator,
-                                   const unsigned int n_refinements) const
+  Midsurface::create_triangulation(const MPI_Comm       communicator,
+                                   const ReferenceCell &reference_cell,
+                                   const unsigned int   n_refinements) const
   {
     Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
 
-    std::vector<CellData<dim>> cells(surface_->cells().size());
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      cells[k].vertices.assign(surface_->cells()[k].vertices.begin(),
-                               surface_->cells()[k].vertices.end());
+    const bool triangles = (reference_cell == ReferenceCells::Triangle);
+    std::vector<CellData<dim>> cells;
+    for (const SurfaceDescription::Cell &cell : surface_->cells())
+      if (triangles)
+        for (const auto &half :
+             halves[diagonals_[&cell - surface_->cells().data()]])
+          {
+            cells.emplace_back(3);
+            for (unsigned int v = 0; v < 3; ++v)
+              cells.back().vertices[v] = cell.vertices[half[v]];
+          }
+      else
+        {
+          cells.emplace_back();
+          cells.back().vertices.assign(cell.vertices.begin(),
+                                       cell.vertices.end());
+        }
     SubCellData boundary;
     for (const ParametricSurface::BoundaryLine &line :
          surface_->boundary_lines())
@@ -133,9 +257,19 @@ namespace Nacre
         boundary.boundary_lines.push_back(data);
       }
 
-    auto triangulation =
-      std::make_unique<parallel::distributed::Triangulation<dim, spacedim>>(
-        communicator);
+    // p4est takes no triangles.
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation;
+    using SharedMesh = parallel::shared::Triangulation<dim, spacedim>;
+    if (triangles)
+      triangulation =
+        std::make_unique<SharedMesh>(communicator,
+                                     Triangulation<dim, spacedim>::none,
+                                     true,
+                                     SharedMesh::partition_zorder);
+    else
+      triangulation =
+        std::make_unique<parallel::distributed::Triangulation<dim, spacedim>>(
+          communicator);
     triangulation->create_triangulation(surface_->vertices(), cells, boundary);
     triangulation->refine_global(n_refinements);
 
@@ -144,7 +278,8 @@ namespace Nacre
     if (n_refinements > 0)
       for (const auto &cell : triangulation->active_cell_iterators())
         for (const unsigned int v : cell->vertex_indices())
-          cell->vertex(v) = position(cell, Point<dim>(v % 2, v / 2));
+          cell->vertex(v) =
+            position(cell, reference_cell.template vertex<dim>(v));
     return triangulation;
   }
 
@@ -165,11 +300,16 @@ namespace Nacre
         unsigned int child  = 0;
         while (parent->child_index(child) != ancestor->index())
           ++child;
-        coarse_unit[0] = 0.5 * (child % 2 + coarse_unit[0]);
-        coarse_unit[1] = 0.5 * (child / 2 + coarse_unit[1]);
-        ancestor       = parent;
+        coarse_unit = to_parent(parent, ancestor, child, coarse_unit);
+        ancestor    = parent;
       }
-    return surface_->position(ancestor->index(), coarse_unit);
+    const unsigned int k = ancestor->index();
+    if (cell->reference_cell() == ReferenceCells::Triangle)
+      return surface_->position(k / 2,
+                                to_quadrilateral(diagonals_[k / 2],
+                                                 k % 2,
+                                                 coarse_unit));
+    return surface_->position(k, coarse_unit);
   }
 
 

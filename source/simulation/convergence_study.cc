@@ -179,7 +179,7 @@ namespace Nacre
   {
     const SolvedShell &shell = problem_.solution();
     ResultsTable::Row  row;
-    row.element = problem_.element();
+    row.element = problem_.element_name();
     row.degree  = shell_case.degree;
     row.cells   = shell.discretization.triangulation().n_global_active_cells();
     row.dofs    = shell.discretization.dof_handler().n_dofs();

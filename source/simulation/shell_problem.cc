@@ -21,26 +21,32 @@ namespace Nacre
     , communicator_(communicator)
     , section_(std::move(section))
   {
-    add_parameter("Element",
-                  element_,
-                  "Displacement element: Lagrange, continuous of degree p = 2 "
-                  "to 5 on quadrilaterals.",
-                  prm,
-                  Patterns::Selection("Lagrange"));
+    add_parameter(
+      "Element",
+      element_,
+      "Displacement element, continuous: Lagrange, (p+1)^2 nodes on "
+      "quadrilaterals, p = 2 to 5; serendipity, 8 nodes; "
+      "triangle, 6 nodes on halves of the quadrilaterals.",
+      prm,
+      Patterns::Selection("Lagrange|serendipity|triangle"));
     add_parameter("Mapping degree",
                   mapping_degree_,
                   "Degree of the mid-surface's geometry, 1 to 6; 0 is that of "
-                  "the element (isoparametric). Above the element's degree, "
-                  "rigid rotations store some energy.",
+                  "the element (isoparametric), the only one for other than "
+                  "Lagrange cells. Above the element's degree, rigid rotations "
+                  "store some energy.",
                   prm,
                   Patterns::Integer(0, 6));
     add_parameter("Membrane strain",
                   membrane_strain_name_,
                   "tied: sampled at Gauss points and interpolated, free of "
                   "membrane locking; full: integrated as it is, locks; "
-                  "reduced: p x p points with a share of full integration.",
+                  "reduced: p x p points with a share of full integration, for "
+                  "8-node cells 2 x 2 points and for triangles 3 points for "
+                  "the bending strain as well; default: reduced for 8-node "
+                  "cells, tied for all others.",
                   prm,
-                  Patterns::Selection("tied|full|reduced"));
+                  Patterns::Selection("default|tied|full|reduced"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -49,6 +55,7 @@ namespace Nacre
   ShellProblem::prepare(const Constants &constants, const ShellCase &shell_case)
   {
     case_ = shell_case;
+    check_element();
     if (case_.thickness)
       section_->set_thickness(*case_.thickness);
     section_->prepare(constants);
@@ -66,9 +73,35 @@ namespace Nacre
     exact_solution_.prepare(constants_);
   }
 
+  void
+  ShellProblem::check_element() const
+  {
+    if (element().type == ElementType::lagrange)
+      return;
+    AssertThrow(case_.degree == 2,
+                ExcMessage("Study/Degrees: the element '" + element_ +
+                           "' is of degree 2; found " +
+                           std::to_string(case_.degree) + "."));
+    AssertThrow(mapping_degree_ == 0 || mapping_degree_ == 2,
+                ExcMessage("Discretization/Mapping degree: the element '" +
+                           element_ + "' is isoparametric: 0 or 2; found " +
+                           std::to_string(mapping_degree_) + "."));
+  }
+
+  Element
+  ShellProblem::element() const
+  {
+    const auto &names = element_names();
+    const auto  type  = static_cast<ElementType>(
+      std::find(names.begin(), names.end(), element_) - names.begin());
+    return {type, case_.degree};
+  }
+
   MembraneStrain
   ShellProblem::membrane_strain() const
   {
+    if (membrane_strain_name_ == "default")
+      return default_membrane_strain(element().type);
     const auto &names = membrane_strain_names();
     return static_cast<MembraneStrain>(
       std::find(names.begin(), names.end(), membrane_strain_name_) -
@@ -113,7 +146,7 @@ namespace Nacre
     Timer timer(communicator_, true);
     discretization_ = std::make_unique<Discretization>(midsurface_,
                                                        communicator_,
-                                                       case_.degree,
+                                                       element(),
                                                        mapping_degree_,
                                                        case_.n_refinements);
     const DisplacementConditions conditions(*discretization_,

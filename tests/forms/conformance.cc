@@ -107,7 +107,7 @@ make_discretization(const std::vector<double>                    &nodes,
     [&](const auto &cell, const Point<2> &unit) {
       return node(cells[cell->index()][record_node(unit)]);
     },
-    2,
+    Element{ElementType::lagrange, 2},
     0);
 }
 
@@ -541,6 +541,7 @@ test_edge(const Json &record)
 
   const EdgePenalty penalty(*mesh.discretization,
                             parameters.section,
+                            mesh.discretization->element().full_quadrature(),
                             record.get<double>("eta"));
   const double      found = penalty.interior(mesh.minus, mesh.plus);
   compare(name + ": eta_e", {found}, {eta_e});

@@ -34,7 +34,10 @@ edge_matrix(const Discretization &discretization,
             const bool            swapped)
 {
   const auto         none = numbers::invalid_unsigned_int;
-  const EdgePenalty  penalty(discretization, section, {});
+  const EdgePenalty  penalty(discretization,
+                            section,
+                            discretization.element().full_quadrature(),
+                            {});
   LinearKinematics   kinematics(discretization, section, MembraneStrain::tied);
   ShellEdgeValues    edge(discretization);
   LocalTerms         terms;
@@ -211,7 +214,11 @@ test_coercivity(const Parameters &parameters)
                                      eta);
         };
         const double bound =
-          EdgePenalty(*discretization, parameters.section, {}).bound();
+          EdgePenalty(*discretization,
+                      parameters.section,
+                      discretization->element().full_quadrature(),
+                      {})
+            .bound();
         const auto name = "p = " + std::to_string(degree) +
                           (hanging ? ", hanging nodes: " : ": ");
         check_above(name + "smallest eigenvalue at the bound",
@@ -239,7 +246,11 @@ test_bound()
     {
       const auto   discretization = make_discretization(mesh, degree);
       const double bound =
-        EdgePenalty(*discretization, parameters.section, {}).bound();
+        EdgePenalty(*discretization,
+                    parameters.section,
+                    discretization->element().full_quadrature(),
+                    {})
+          .bound();
       check_below("bound on squares, p = " + std::to_string(degree),
                   std::abs(bound / (degree * (degree - 1.) / 8.) - 1.),
                   1e-6);
@@ -356,7 +367,11 @@ test_clamped_coercivity()
                                *panel.loads,
                                eta);
   };
-  const double bound = EdgePenalty(discretization, *panel.section, {}).bound();
+  const double bound = EdgePenalty(discretization,
+                                   *panel.section,
+                                   discretization.element().full_quadrature(),
+                                   {})
+                         .bound();
   check_above("rotations fixed: smallest eigenvalue at the bound",
               smallest(bound),
               -1e-13);

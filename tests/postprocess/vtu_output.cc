@@ -117,7 +117,7 @@ namespace
             GeometryInfo<2>::d_linear_shape_function(unit, v) * cell->vertex(v);
         return x;
       },
-      degree,
+      Element{ElementType::lagrange, degree},
       0);
   }
 
@@ -141,7 +141,7 @@ namespace
             GeometryInfo<2>::d_linear_shape_function(unit, v) * cell->vertex(v);
         return Point<3>(R * std::cos(s[0]), R * std::sin(s[0]), s[1]);
       },
-      4,
+      Element{ElementType::lagrange, 4},
       0);
   }
 

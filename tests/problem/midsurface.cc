@@ -109,7 +109,9 @@ namespace
   {
     const auto surface = make_surface(test.prm);
     const auto mesh =
-      surface->create_triangulation(MPI_COMM_WORLD, test.n_refinements);
+      surface->create_triangulation(MPI_COMM_WORLD,
+                                    ReferenceCells::Quadrilateral,
+                                    test.n_refinements);
 
     const FE_Q<2, 3>    fe(6);
     MappingQCache<2, 3> mapping(6);

@@ -4,7 +4,7 @@
 #ifndef nacre_discretization_discretization_h
 #define nacre_discretization_discretization_h
 
-#include <nacre/base/types.h>
+#include <nacre/discretization/element.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -12,9 +12,8 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/fe/mapping.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
@@ -35,7 +34,7 @@ namespace Nacre
     bool is_mine = false;
     /** The cell, valid where is_mine. */
     DoFHandler<dim, spacedim>::active_cell_iterator cell;
-    /** Coordinates in the reference cell [0, 1]^2, valid where is_mine. */
+    /** Coordinates in the reference cell, valid where is_mine. */
     Point<dim> unit;
     /** Nearest point of the mid-surface (length), valid on all ranks. */
     Point<spacedim> position;
@@ -47,8 +46,8 @@ namespace Nacre
 
   /**
    * One mesh of the mid-surface with its isoparametric geometry (18) and its
-   * displacement space: FE_Q(p)^3, continuous displacements, discontinuous
-   * rotations.
+   * displacement space: three components of an Element, continuous
+   * displacements, discontinuous rotations.
    *
    * The geometry is a field on the mesh with the hanging-node constraints
    * applied, so that it is continuous across hanging edges too, and the rigid
@@ -59,11 +58,12 @@ namespace Nacre
   {
   public:
     /**
-     * @param mapping_degree degree of the geometry; 0 means isoparametric
+     * @param mapping_degree degree of the geometry; 0 means isoparametric, and
+     *   for other than Lagrange cells there is nothing else
      */
     Discretization(const Midsurface  &midsurface,
                    const MPI_Comm     communicator,
-                   const unsigned int degree,
+                   const Element     &element,
                    const unsigned int mapping_degree,
                    const unsigned int n_refinements);
 
@@ -77,11 +77,21 @@ namespace Nacre
       const std::function<
         Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
                         const Point<dim> &)> &position,
-      const unsigned int                      degree,
+      const Element                          &element,
       const unsigned int                      mapping_degree);
 
+    const Element &
+    element() const
+    {
+      return element_;
+    }
+
+    /** Degree p of the displacements. */
     unsigned int
-    degree() const;
+    degree() const
+    {
+      return element_.degree;
+    }
 
     MPI_Comm
     communicator() const;
@@ -92,13 +102,20 @@ namespace Nacre
     const Mapping<dim, spacedim> &
     mapping() const;
 
-    /** The displacement space, FESystem(FE_Q(p), 3). */
+    /** The displacement space, FESystem(scalar_fe(), 3). */
     const DoFHandler<dim, spacedim> &
     dof_handler() const;
 
     /** The scalar element whose nodes carry the displacements. */
-    const FE_Q<dim, spacedim> &
+    const FiniteElement<dim, spacedim> &
     scalar_fe() const;
+
+    /** The nodes a of the local edge @p face of any cell. */
+    const std::vector<unsigned int> &
+    face_nodes(const unsigned int face) const
+    {
+      return face_nodes_[face];
+    }
 
     /** Local dof of the component c of the node a: index 3 a + c. */
     const std::vector<unsigned int> &
@@ -134,15 +151,22 @@ namespace Nacre
     void
     build_geometry(const std::function<Point<spacedim>(
                      const Triangulation<dim, spacedim>::cell_iterator &,
-                     const Point<dim> &)> &position);
+                     const Point<dim> &)> &position,
+                   const unsigned int      mapping_degree);
+
+    /** Positions of the geometry's nodes on an active cell. */
+    std::vector<Point<spacedim>>
+    geometry_positions(
+      const Triangulation<dim, spacedim>::cell_iterator &cell) const;
 
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation_;
 
-    unsigned int              mapping_degree_;
-    FE_Q<dim, spacedim>       scalar_fe_;
-    FESystem<dim, spacedim>   fe_;
-    DoFHandler<dim, spacedim> dof_handler_;
-    std::vector<unsigned int> node_dofs_;
+    const Element                                       element_;
+    const std::unique_ptr<FiniteElement<dim, spacedim>> scalar_fe_;
+    const std::vector<std::vector<unsigned int>>        face_nodes_;
+    FESystem<dim, spacedim>                             fe_;
+    DoFHandler<dim, spacedim>                           dof_handler_;
+    std::vector<unsigned int>                           node_dofs_;
 
     IndexSet                  locally_owned_dofs_;
     IndexSet                  locally_relevant_dofs_;
@@ -152,8 +176,8 @@ namespace Nacre
     DoFHandler<dim, spacedim>                  geometry_dof_handler_;
     LinearAlgebra::distributed::Vector<double> geometry_;
     /** Geometry's shape functions at the displacement nodes. */
-    FullMatrix<double>                            geometry_to_nodes_;
-    std::unique_ptr<MappingQCache<dim, spacedim>> mapping_;
+    FullMatrix<double>                      geometry_to_nodes_;
+    std::unique_ptr<Mapping<dim, spacedim>> mapping_;
   };
 } // namespace Nacre
 

@@ -5,6 +5,7 @@
 #define nacre_discretization_shell_values_h
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/discretization/membrane_tying.h>
 #include <nacre/discretization/shape_table.h>
 #include <nacre/mechanics/surface_frame.h>
 
@@ -25,10 +26,8 @@ namespace Nacre
    * The rows of strains are matrices [3 q + v][i]: Voigt component v of the
    * strain at the point q of the local dof i.
    *
-   * Tied membrane strains (against membrane locking) sample the covariant
-   * component e11 at p Gauss points along xi1 times p + 1 along xi2, e22 the
-   * other way round and e12 at p x p points, and interpolate them to the
-   * points of this object.
+   * Tied membrane strains (against membrane locking) are interpolated from the
+   * samples of a MembraneTying.
    */
   class ShellCellValues
   {
@@ -106,21 +105,6 @@ namespace Nacre
     }
 
   private:
-    /** Sampling points of one strain component and their interpolation. */
-    struct Tying
-    {
-      /** Index of the first sampling point among all. */
-      unsigned int first;
-      /** For each point of the object: sampling points and weights. */
-      std::vector<std::vector<std::pair<unsigned int, double>>> weights;
-    };
-
-    static Quadrature<dim>
-    tying_points(const unsigned int degree);
-
-    void
-    make_tyings(const Quadrature<dim> &quadrature);
-
     void
     fill_membrane_rows();
 
@@ -133,12 +117,12 @@ namespace Nacre
     const Discretization     &discretization_;
     const Quadrature<dim>     quadrature_;
     const bool                tied_;
+    const MembraneTying       tying_;
     FE_Nothing<dim, spacedim> fe_nothing_;
     FEValues<dim, spacedim>   fe_values_;
     FEValues<dim, spacedim>   tying_fe_values_;
     ShapeTable                shapes_;
     ShapeTable                tying_shapes_;
-    std::array<Tying, 3>      tyings_;
 
     std::vector<SurfaceFrame<>> frames_;
     FullMatrix<double>          membrane_rows_;
@@ -256,13 +240,17 @@ namespace Nacre
 
   private:
     void
-    update(const std::array<unsigned int, 2> &faces,
-           const std::array<unsigned int, 2> &subfaces);
+    make_tables();
+
+    void
+    update(const std::array<cell_iterator, 2> &cells,
+           const std::array<unsigned int, 2>  &faces,
+           const std::array<unsigned int, 2>  &subfaces);
 
     const Discretization            &discretization_;
     const Quadrature<1>              quadrature_;
     FEInterfaceValues<dim, spacedim> interface_values_;
-    /** [face][subface], the whole face last. */
+    /** [face][subface 0, subface 1, whole face, whole face backwards]. */
     std::vector<std::vector<ShapeTable>>       tables_;
     unsigned int                               n_sides_ = 0;
     std::array<const ShapeTable *, 2>          shapes_;

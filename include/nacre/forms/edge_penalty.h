@@ -25,9 +25,13 @@ namespace Nacre
   class EdgePenalty
   {
   public:
-    /** @param eta the user's eta; none: the bound */
+    /**
+     * @param quadrature of the bending energy
+     * @param eta the user's eta; none: the bound
+     */
     EdgePenalty(const Discretization        &discretization,
                 const SectionLaw            &section,
+                const Quadrature<dim>       &quadrature,
                 const std::optional<double> &eta);
 
     using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;

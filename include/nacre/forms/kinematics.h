@@ -42,11 +42,20 @@ namespace Nacre
     /** At all points of the full rule: locks. */
     full,
     /**
-     * At p x p points, blended with full integration by
-     * f = min(1, h^2 / |K|) against spurious modes.
+     * Lagrange cells: at p x p points, blended with full integration by
+     * f = min(1, h^2 / |K|) against spurious modes. 8-node cells and
+     * triangles: the bending strain too is integrated with 2 x 2, 3 points.
      */
     reduced
   };
+
+  /** The rule of the bending energy, and of the loads. */
+  Quadrature<dim>
+  cell_quadrature(const Element &element, const MembraneStrain membrane_strain);
+
+  /** reduced for 8-node cells, tied for all others. */
+  MembraneStrain
+  default_membrane_strain(const ElementType element);
 
   /** Names of MembraneStrain in its order. */
   const std::vector<std::string> &

@@ -11,6 +11,8 @@
 
 #include <deal.II/distributed/tria_base.h>
 
+#include <deal.II/grid/reference_cell.h>
+
 #include <array>
 #include <map>
 #include <memory>
@@ -23,7 +25,8 @@ namespace Nacre
 
   /**
    * The mid-surface phi0 of the shell: a coarse quadrilateral mesh in a chart
-   * and the map from the chart to space.
+   * and the map from the chart to space. For triangles each coarse
+   * quadrilateral is cut along a diagonal.
    *
    * The mesh is only a topology. The position of any point of any descendant
    * cell follows from the coarse cell, the path of children down to the cell,
@@ -45,16 +48,18 @@ namespace Nacre
     prepare(const Constants &constants);
 
     /**
-     * The mesh of the mid-surface, refined @p n_refinements times, with the
-     * boundary ids of edge_names().
+     * The mesh of the mid-surface of cells like @p reference_cell, refined
+     * @p n_refinements times, with the boundary ids of edge_names():
+     * quadrilaterals on p4est, triangles on a mesh that all ranks know.
      */
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
-    create_triangulation(const MPI_Comm     communicator,
-                         const unsigned int n_refinements) const;
+    create_triangulation(const MPI_Comm       communicator,
+                         const ReferenceCell &reference_cell,
+                         const unsigned int   n_refinements) const;
 
     /**
-     * phi0 (length) at the point @p unit of the reference cell [0, 1]^2 of
-     * @p cell, on the exact surface.
+     * phi0 (length) at the point @p unit of the reference cell of @p cell, on
+     * the exact surface.
      */
     Point<spacedim>
     position(const Triangulation<dim, spacedim>::cell_iterator &cell,
@@ -82,7 +87,9 @@ namespace Nacre
     //@}
 
     std::unique_ptr<const ParametricSurface> surface_;
-    std::vector<std::string>                 edge_names_;
+    /** How each coarse quadrilateral is cut for triangles. */
+    std::vector<unsigned int> diagonals_;
+    std::vector<std::string>  edge_names_;
   };
 } // namespace Nacre
 

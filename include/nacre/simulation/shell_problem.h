@@ -78,8 +78,9 @@ namespace Nacre
     double
     eta() const;
 
+    /** The element's name. */
     const std::string &
-    element() const
+    element_name() const
     {
       return element_;
     }
@@ -116,6 +117,12 @@ namespace Nacre
     void
     solve_linear_system(const AffineConstraints<double> &constraints, Log &log);
 
+    void
+    check_element() const;
+
+    Element
+    element() const;
+
     MembraneStrain
     membrane_strain() const;
 
@@ -128,7 +135,7 @@ namespace Nacre
 
     std::string  element_              = "Lagrange";
     unsigned int mapping_degree_       = 0;
-    std::string  membrane_strain_name_ = "tied";
+    std::string  membrane_strain_name_ = "default";
 
     ShellCase  case_;
     Constants  constants_;

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/membrane_tying.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** Lagrange polynomial k of the @p nodes at @p x. */
+    double
+    lagrange(const std::vector<Point<1>> &nodes,
+             const unsigned int           k,
+             const double                 x)
+    {
+      double value = 1.;
+      for (unsigned int m = 0; m < nodes.size(); ++m)
+        if (m != k)
+          value *= (x - nodes[m][0]) / (nodes[k][0] - nodes[m][0]);
+      return value;
+    }
+
+    /** (tau_1^2, tau_2^2, tau_1 tau_2): its product with a strain is e_tt. */
+    std::array<double, 3>
+    dyad(const Tensor<1, dim> &tau)
+    {
+      return {{tau[0] * tau[0], tau[1] * tau[1], tau[0] * tau[1]}};
+    }
+
+    /** Barycentric coordinates, the linear functions on the triangle. */
+    std::array<double, 3>
+    barycentric(const Point<dim> &x)
+    {
+      return {{1. - x[0] - x[1], x[0], x[1]}};
+    }
+  } // namespace
+
+  MembraneTying::MembraneTying(const Element                 &element,
+                               const std::vector<Point<dim>> &targets)
+    : weights_(3 * targets.size())
+  {
+    if (element.reference_cell() == ReferenceCells::Triangle)
+      tie_triangle(targets);
+    else
+      tie_quadrilateral(element.degree, targets);
+  }
+
+  void
+  MembraneTying::tie_quadrilateral(const unsigned int             degree,
+                                   const std::vector<Point<dim>> &targets)
+  {
+    for (unsigned int v = 0; v < 3; ++v)
+      {
+        const auto xs = QGauss<1>(v == 1 ? degree + 1 : degree).get_points();
+        const auto ys = QGauss<1>(v == 0 ? degree + 1 : degree).get_points();
+        for (unsigned int j = 0; j < ys.size(); ++j)
+          for (unsigned int i = 0; i < xs.size(); ++i)
+            {
+              Sample sample{static_cast<unsigned int>(points_.size()),
+                            {{0., 0., 0.}}};
+              sample.direction[v] = 1.;
+              for (unsigned int q = 0; q < targets.size(); ++q)
+                {
+                  const double weight = lagrange(xs, i, targets[q][0]) *
+                                        lagrange(ys, j, targets[q][1]);
+                  if (std::abs(weight) > 1e-13)
+                    weights_[3 * q + v].emplace_back(samples_.size(), weight);
+                }
+              points_.emplace_back(xs[i][0], ys[j][0]);
+              samples_.push_back(sample);
+            }
+      }
+  }
+
+  void
+  MembraneTying::tie_triangle(const std::vector<Point<dim>> &targets)
+  {
+    // The linear field sum_k L_k e_k, unknowns 3 k + v, fulfils nine
+    // conditions, each a combination of samples.
+    FullMatrix<double> conditions(9, 9);
+    std::array<std::vector<std::pair<unsigned int, double>>, 9> data;
+
+    const auto   cell       = ReferenceCells::Triangle;
+    unsigned int condition  = 0;
+    const auto   add_sample = [&](const Point<dim>            &x,
+                                const std::array<double, 3> &direction) {
+      samples_.push_back(
+        {static_cast<unsigned int>(points_.size()), direction});
+      points_.push_back(x);
+      return samples_.size() - 1;
+    };
+    for (const auto face : cell.face_indices())
+      {
+        const auto start =
+          cell.template vertex<dim>(cell.face_to_cell_vertices(face, 0, 1));
+        const auto end =
+          cell.template vertex<dim>(cell.face_to_cell_vertices(face, 1, 1));
+        const auto direction = dyad(end - start);
+        for (const double t :
+             {0.5 - std::sqrt(1. / 12.), 0.5 + std::sqrt(1. / 12.)})
+          {
+            const Point<dim> x = start + t * (end - start);
+            data[condition].emplace_back(add_sample(x, direction), 1.);
+            for (unsigned int k = 0; k < 3; ++k)
+              for (unsigned int v = 0; v < 3; ++v)
+                conditions(condition, 3 * k + v) =
+                  barycentric(x)[k] * direction[v];
+            ++condition;
+          }
+      }
+    // The mean of a linear field is that of its values at the vertices.
+    const QWitherdenVincentSimplex<dim> rule(1, false);
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        points_.push_back(rule.point(q));
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            Sample sample{static_cast<unsigned int>(points_.size() - 1),
+                          {{0., 0., 0.}}};
+            sample.direction[v] = 1.;
+            data[condition + v].emplace_back(samples_.size(),
+                                             2. * rule.weight(q));
+            samples_.push_back(sample);
+          }
+      }
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int v = 0; v < 3; ++v)
+        conditions(condition + v, 3 * k + v) = 1. / 3.;
+
+    conditions.gauss_jordan();
+    for (unsigned int q = 0; q < targets.size(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          std::vector<double> weights(samples_.size());
+          for (unsigned int c = 0; c < 9; ++c)
+            for (const auto &[sample, share] : data[c])
+              for (unsigned int k = 0; k < 3; ++k)
+                weights[sample] +=
+                  barycentric(targets[q])[k] * conditions(3 * k + v, c) * share;
+          for (unsigned int s = 0; s < weights.size(); ++s)
+            if (std::abs(weights[s]) > 1e-13)
+              weights_[3 * q + v].emplace_back(s, weights[s]);
+        }
+  }
+} // namespace Nacre
