@@ -10,11 +10,24 @@
 
 #include <deal.II/base/timer.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
 namespace Nacre
 {
+  namespace
+  {
+    /** The value of the enumeration whose name is @p name. */
+    template <typename Enumeration>
+    Enumeration
+    selected(const std::vector<std::string> &names, const std::string &name)
+    {
+      return static_cast<Enumeration>(
+        std::find(names.begin(), names.end(), name) - names.begin());
+    }
+  } // namespace
+
   ShellProblem::ShellProblem(const MPI_Comm              communicator,
                              std::unique_ptr<SectionLaw> section)
     : ParameterAcceptor("/Discretization")
@@ -41,6 +54,12 @@ namespace Nacre
                   "reduced: p x p points with a share of full integration.",
                   prm,
                   Patterns::Selection("tied|full|reduced"));
+    add_parameter("Edge form",
+                  edge_form_name_,
+                  "hinge: rotations and moments of an edge in each cell's own "
+                  "frame, independent of creases.",
+                  prm,
+                  Patterns::Selection("hinge"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -66,13 +85,14 @@ namespace Nacre
     exact_solution_.prepare(constants_);
   }
 
-  MembraneStrain
-  ShellProblem::membrane_strain() const
+  KinematicsOptions
+  ShellProblem::kinematics_options() const
   {
-    const auto &names = membrane_strain_names();
-    return static_cast<MembraneStrain>(
-      std::find(names.begin(), names.end(), membrane_strain_name_) -
-      names.begin());
+    KinematicsOptions options;
+    options.membrane_strain =
+      selected<MembraneStrain>(membrane_strain_names(), membrane_strain_name_);
+    options.edge_form = selected<EdgeForm>(edge_form_names(), edge_form_name_);
+    return options;
   }
 
   double
@@ -132,7 +152,7 @@ namespace Nacre
                                                 *section_,
                                                 boundary_conditions_,
                                                 loads_,
-                                                membrane_strain(),
+                                                kinematics_options(),
                                                 case_.eta);
     warn_of_penalty(log);
     timer.stop();
@@ -142,14 +162,15 @@ namespace Nacre
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
-    solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
-                                                          *section_,
-                                                          *operator_,
-                                                          membrane_strain(),
-                                                          exact_solution_,
-                                                          displacement_,
-                                                          residual_,
-                                                          energies});
+    solution_               = std::make_unique<SolvedShell>(
+      SolvedShell{*discretization_,
+                  *section_,
+                  *operator_,
+                  kinematics_options().membrane_strain,
+                  exact_solution_,
+                  displacement_,
+                  residual_,
+                  energies});
   }
 
   void

@@ -116,8 +116,8 @@ namespace Nacre
     void
     solve_linear_system(const AffineConstraints<double> &constraints, Log &log);
 
-    MembraneStrain
-    membrane_strain() const;
+    KinematicsOptions
+    kinematics_options() const;
 
     const MPI_Comm              communicator_;
     std::unique_ptr<SectionLaw> section_;
@@ -129,6 +129,7 @@ namespace Nacre
     std::string  element_              = "Lagrange";
     unsigned int mapping_degree_       = 0;
     std::string  membrane_strain_name_ = "tied";
+    std::string  edge_form_name_       = "hinge";
 
     ShellCase  case_;
     Constants  constants_;
