@@ -6,47 +6,6 @@
 
 namespace Nacre
 {
-  Energies &
-  Energies::operator+=(const Energies &other)
-  {
-    membrane += other.membrane;
-    bending += other.bending;
-    edge += other.edge;
-    return *this;
-  }
-
-  const std::vector<std::string> &
-  membrane_strain_names()
-  {
-    static const std::vector<std::string> names = {"tied", "full", "reduced"};
-    return names;
-  }
-
-  Quadrature<dim>
-  cell_quadrature(const Element &element, const MembraneStrain membrane_strain)
-  {
-    return membrane_strain == MembraneStrain::reduced &&
-               element.type != ElementType::lagrange ?
-             element.reduced_quadrature() :
-             element.full_quadrature();
-  }
-
-  MembraneStrain
-  default_membrane_strain(const ElementType element)
-  {
-    return element == ElementType::serendipity ? MembraneStrain::reduced :
-                                                 MembraneStrain::tied;
-  }
-
-  void
-  LocalTerms::reinit(const unsigned int n_dofs)
-  {
-    if (wants_tangent)
-      tangent.reinit(n_dofs, n_dofs);
-    residual.reinit(n_dofs);
-    energies = Energies();
-  }
-
   LinearKinematics::LinearKinematics(const Discretization &discretization,
                                      const SectionLaw     &section,
                                      const MembraneStrain  membrane_strain)

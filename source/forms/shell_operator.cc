@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
-#include <nacre/forms/linear_kinematics.h>
+#include <nacre/forms/hinge_form.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
@@ -111,7 +111,7 @@ namespace Nacre
                                const SectionLaw            &section,
                                const BoundaryConditions    &boundary_conditions,
                                const Loads                 &loads,
-                               const MembraneStrain         membrane_strain,
+                               const KinematicsOptions     &kinematics_options,
                                const std::optional<double> &eta)
     : discretization_(discretization)
     , section_(section)
@@ -119,11 +119,10 @@ namespace Nacre
     , loads_(loads)
     , penalty_(discretization,
                section,
-               cell_quadrature(discretization.element(), membrane_strain),
+               cell_quadrature(discretization.element(),
+                               kinematics_options.membrane_strain),
                eta)
-    , kinematics_(std::make_unique<LinearKinematics>(discretization,
-                                                     section,
-                                                     membrane_strain))
+    , kinematics_(make_kinematics(discretization, section, kinematics_options))
   {
     locate_point_forces();
     AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),

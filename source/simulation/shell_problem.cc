@@ -10,11 +10,24 @@
 
 #include <deal.II/base/timer.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
 namespace Nacre
 {
+  namespace
+  {
+    /** The value of the enumeration whose name is @p name. */
+    template <typename Enumeration>
+    Enumeration
+    selected(const std::vector<std::string> &names, const std::string &name)
+    {
+      return static_cast<Enumeration>(
+        std::find(names.begin(), names.end(), name) - names.begin());
+    }
+  } // namespace
+
   ShellProblem::ShellProblem(const MPI_Comm              communicator,
                              std::unique_ptr<SectionLaw> section)
     : ParameterAcceptor("/Discretization")
@@ -47,6 +60,12 @@ namespace Nacre
                   "cells, tied for all others.",
                   prm,
                   Patterns::Selection("default|tied|full|reduced"));
+    add_parameter("Edge form",
+                  edge_form_name_,
+                  "hinge: rotations and moments of an edge in each cell's own "
+                  "frame, independent of creases.",
+                  prm,
+                  Patterns::Selection("hinge"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -91,21 +110,20 @@ namespace Nacre
   Element
   ShellProblem::element() const
   {
-    const auto &names = element_names();
-    const auto  type  = static_cast<ElementType>(
-      std::find(names.begin(), names.end(), element_) - names.begin());
-    return {type, case_.degree};
+    return {selected<ElementType>(element_names(), element_), case_.degree};
   }
 
-  MembraneStrain
-  ShellProblem::membrane_strain() const
+  KinematicsOptions
+  ShellProblem::kinematics_options() const
   {
-    if (membrane_strain_name_ == "default")
-      return default_membrane_strain(element().type);
-    const auto &names = membrane_strain_names();
-    return static_cast<MembraneStrain>(
-      std::find(names.begin(), names.end(), membrane_strain_name_) -
-      names.begin());
+    KinematicsOptions options;
+    options.membrane_strain =
+      membrane_strain_name_ == "default" ?
+        default_membrane_strain(element().type) :
+        selected<MembraneStrain>(membrane_strain_names(),
+                                 membrane_strain_name_);
+    options.edge_form = selected<EdgeForm>(edge_form_names(), edge_form_name_);
+    return options;
   }
 
   double
@@ -165,7 +183,7 @@ namespace Nacre
                                                 *section_,
                                                 boundary_conditions_,
                                                 loads_,
-                                                membrane_strain(),
+                                                kinematics_options(),
                                                 case_.eta);
     warn_of_penalty(log);
     timer.stop();
@@ -175,14 +193,15 @@ namespace Nacre
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
-    solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
-                                                          *section_,
-                                                          *operator_,
-                                                          membrane_strain(),
-                                                          exact_solution_,
-                                                          displacement_,
-                                                          residual_,
-                                                          energies});
+    solution_               = std::make_unique<SolvedShell>(
+      SolvedShell{*discretization_,
+                  *section_,
+                  *operator_,
+                  kinematics_options().membrane_strain,
+                  exact_solution_,
+                  displacement_,
+                  residual_,
+                  energies});
   }
 
   void

@@ -5,13 +5,13 @@
 #define nacre_forms_kinematics_h
 
 #include <nacre/discretization/shell_values.h>
+#include <nacre/forms/kinematics_options.h>
 #include <nacre/mechanics/section_law.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace Nacre
@@ -34,21 +34,6 @@ namespace Nacre
     operator+=(const Energies &other);
   };
 
-  /** How the membrane strain of a cell is integrated. */
-  enum class MembraneStrain
-  {
-    /** Tied at Gauss points: free of locking, no spurious modes. */
-    tied,
-    /** At all points of the full rule: locks. */
-    full,
-    /**
-     * Lagrange cells: at p x p points, blended with full integration by
-     * f = min(1, h^2 / |K|) against spurious modes. 8-node cells and
-     * triangles: the bending strain too is integrated with 2 x 2, 3 points.
-     */
-    reduced
-  };
-
   /** The rule of the bending energy, and of the loads. */
   Quadrature<dim>
   cell_quadrature(const Element &element, const MembraneStrain membrane_strain);
@@ -56,10 +41,6 @@ namespace Nacre
   /** reduced for 8-node cells, tied for all others. */
   MembraneStrain
   default_membrane_strain(const ElementType element);
-
-  /** Names of MembraneStrain in its order. */
-  const std::vector<std::string> &
-  membrane_strain_names();
 
   /** What the terms of a cell or an edge contribute, on local dofs. */
   struct LocalTerms
@@ -125,6 +106,12 @@ namespace Nacre
                        const Vector<double>      &u,
                        LocalTerms                &terms) = 0;
   };
+
+  /** The alternative that @p options name. */
+  std::unique_ptr<Kinematics>
+  make_kinematics(const Discretization    &discretization,
+                  const SectionLaw        &section,
+                  const KinematicsOptions &options);
 } // namespace Nacre
 
 #endif

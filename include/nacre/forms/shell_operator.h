@@ -34,7 +34,7 @@ namespace Nacre
                   const SectionLaw            &section,
                   const BoundaryConditions    &boundary_conditions,
                   const Loads                 &loads,
-                  const MembraneStrain         membrane_strain,
+                  const KinematicsOptions     &kinematics_options,
                   const std::optional<double> &eta);
 
     const EdgePenalty &

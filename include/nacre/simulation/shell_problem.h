@@ -123,8 +123,8 @@ namespace Nacre
     Element
     element() const;
 
-    MembraneStrain
-    membrane_strain() const;
+    KinematicsOptions
+    kinematics_options() const;
 
     const MPI_Comm              communicator_;
     std::unique_ptr<SectionLaw> section_;
@@ -136,6 +136,7 @@ namespace Nacre
     std::string  element_              = "Lagrange";
     unsigned int mapping_degree_       = 0;
     std::string  membrane_strain_name_ = "default";
+    std::string  edge_form_name_       = "hinge";
 
     ShellCase  case_;
     Constants  constants_;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_kinematics_options_h
+#define nacre_forms_kinematics_options_h
+
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /** How the membrane strain of a cell is integrated. */
+  enum class MembraneStrain
+  {
+    /** Tied at Gauss points: free of locking, no spurious modes. */
+    tied,
+    /** At all points of the full rule: locks. */
+    full,
+    /**
+     * Lagrange cells: at p x p points, blended with full integration by
+     * f = min(1, h^2 / |K|) against spurious modes. 8-node cells and
+     * triangles: the bending strain too is integrated with 2 x 2, 3 points.
+     */
+    reduced
+  };
+
+  /** Names of MembraneStrain in its order. */
+  const std::vector<std::string> &
+  membrane_strain_names();
+
+  /** The frame in which rotations and moments of an edge are measured. */
+  enum class EdgeForm
+  {
+    /** Each cell's own: the scalar hinge form, independent of creases. */
+    hinge
+  };
+
+  /** Names of EdgeForm in its order. */
+  const std::vector<std::string> &
+  edge_form_names();
+
+  /** Which Kinematics make_kinematics() makes. */
+  struct KinematicsOptions
+  {
+    KinematicsOptions(
+      const MembraneStrain membrane_strain = MembraneStrain::tied,
+      const EdgeForm       edge_form       = EdgeForm::hinge)
+      : membrane_strain(membrane_strain)
+      , edge_form(edge_form)
+    {}
+
+    MembraneStrain membrane_strain;
+    EdgeForm       edge_form;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/forms/linear_kinematics.h>
+
+namespace Nacre
+{
+  const std::vector<std::string> &
+  membrane_strain_names()
+  {
+    static const std::vector<std::string> names = {"tied", "full", "reduced"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  edge_form_names()
+  {
+    static const std::vector<std::string> names = {"hinge"};
+    return names;
+  }
+
+  Energies &
+  Energies::operator+=(const Energies &other)
+  {
+    membrane += other.membrane;
+    bending += other.bending;
+    edge += other.edge;
+    return *this;
+  }
+
+  Quadrature<dim>
+  cell_quadrature(const Element &element, const MembraneStrain membrane_strain)
+  {
+    return membrane_strain == MembraneStrain::reduced &&
+               element.type != ElementType::lagrange ?
+             element.reduced_quadrature() :
+             element.full_quadrature();
+  }
+
+  MembraneStrain
+  default_membrane_strain(const ElementType element)
+  {
+    return element == ElementType::serendipity ? MembraneStrain::reduced :
+                                                 MembraneStrain::tied;
+  }
+
+  void
+  LocalTerms::reinit(const unsigned int n_dofs)
+  {
+    if (wants_tangent)
+      tangent.reinit(n_dofs, n_dofs);
+    residual.reinit(n_dofs);
+    energies = Energies();
+  }
+
+  std::unique_ptr<Kinematics>
+  make_kinematics(const Discretization    &discretization,
+                  const SectionLaw        &section,
+                  const KinematicsOptions &options)
+  {
+    return std::make_unique<LinearKinematics>(discretization,
+                                              section,
+                                              options.membrane_strain);
+  }
+} // namespace Nacre
