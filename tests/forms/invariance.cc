@@ -290,7 +290,11 @@ struct Panel
   Energies
   energies(const VectorField &field, const double eta) const
   {
-    const Discretization discretization(*midsurface, MPI_COMM_WORLD, 3, 0, 0);
+    const Discretization discretization(*midsurface,
+                                        MPI_COMM_WORLD,
+                                        Element{ElementType::lagrange, 3},
+                                        0,
+                                        0);
     const ShellOperator  shell_operator(discretization,
                                        *section,
                                        *conditions,
@@ -357,7 +361,7 @@ test_clamped_coercivity()
   panel.conditions->prepare(*panel.midsurface, {});
   const Discretization discretization(*panel.midsurface,
                                       MPI_COMM_WORLD,
-                                      2,
+                                      Element{ElementType::lagrange, 2},
                                       0,
                                       1);
   const auto           smallest = [&](const std::optional<double> &eta) {

@@ -70,7 +70,8 @@ test_patch(const Case &patch)
 
   const Discretization           discretization(midsurface,
                                       MPI_COMM_WORLD,
-                                      patch.degree,
+                                      Element{ElementType::lagrange,
+                                              patch.degree},
                                       patch.mapping_degree,
                                       0);
   const DisplacementConditions   displacements(discretization, conditions);
@@ -285,7 +286,11 @@ test_load_resultants()
   midsurface.prepare({});
   conditions.prepare(midsurface, {});
   loads.prepare(midsurface, {});
-  const Discretization discretization(midsurface, MPI_COMM_WORLD, 3, 0, 0);
+  const Discretization discretization(midsurface,
+                                      MPI_COMM_WORLD,
+                                      Element{ElementType::lagrange, 3},
+                                      0,
+                                      0);
   const ShellOperator  shell_operator(discretization,
                                      section,
                                      conditions,
