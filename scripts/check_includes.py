@@ -17,7 +17,7 @@ import sys
 
 FLOORS = [
     ["base"],
-    ["mechanics", "solvers"],
+    ["mechanics", "elements", "solvers"],
     ["problem"],
     ["discretization"],
     ["forms"],
