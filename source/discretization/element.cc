@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/element.h>
+#include <nacre/elements/fe_serendipity.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -34,7 +35,7 @@ namespace Nacre
         case ElementType::lagrange:
           return std::make_unique<FE_Q<dim, spacedim>>(degree);
         case ElementType::serendipity:
-          AssertThrow(false, ExcNotImplemented());
+          return std::make_unique<FE_Serendipity>(degree);
         case ElementType::triangle:
           // Higher degrees of FE_SimplexP have no <2, 3> instance that works.
           Assert(degree == 2, ExcInternalError());
