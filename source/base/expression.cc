@@ -198,6 +198,8 @@ namespace Nacre
       unsigned int       c = 0;
       for (const auto &name : Text::split(variables, ',', "Variables"))
         {
+          if (c == 3) // the time
+            break;
           out << (c == 0 ? "" : ", ") << name << " = " << point[c];
           ++c;
         }
@@ -213,11 +215,24 @@ namespace Nacre
              (std::isnan(value) ? "not a number" : "infinite");
     }
 
+    /** The parts of "a, b, c", parentheses around all of it optional. */
+    std::vector<std::string>
+    components_of(const std::string &text, const std::string &where)
+    {
+      const std::string given = Text::trim(text);
+      auto              parts = Text::split(given, ',', where);
+      // "(a, b, c)" is one part at first.
+      if (parts.size() == 1 && given.front() == '(' && given.back() == ')')
+        parts = Text::split(given.substr(1, given.size() - 2), ',', where);
+      return parts;
+    }
+
     std::vector<std::string>
     filled_up(std::vector<std::string> variables)
     {
-      AssertThrow(variables.size() <= 3,
-                  ExcMessage("An Expression has at most three variables."));
+      AssertThrow(variables.size() <= 4,
+                  ExcMessage("An Expression has at most three coordinates and "
+                             "the time."));
       while (variables.size() < 3)
         variables.push_back(unused_variable + std::to_string(variables.size()));
       return variables;
@@ -235,14 +250,20 @@ namespace Nacre
       // The parser's own exception for this is no std::exception.
       for (const auto &variable : all)
         AssertThrow(constants.count(variable) == 0,
-                    ExcMessage(where + ": '" + variable +
-                               "' is a coordinate and can't be a constant."));
+                    ExcMessage(
+                      where + ": '" + variable + "' is " +
+                      (&variable == &all[0] + 3 ? "the time" : "a coordinate") +
+                      " and can't be a constant."));
       try
         {
           const SilentErrors silent;
-          function.initialize(all[0] + ',' + all[1] + ',' + all[2],
+          std::string        names;
+          for (const auto &variable : all)
+            names += (names.empty() ? "" : ",") + variable;
+          function.initialize(names,
                               std::vector<std::string>{text},
-                              constants);
+                              constants,
+                              all.size() == 4);
           // initialize() doesn't parse yet. The value at this point, with
           // nothing special about it, counts only for constants.
           return function.value(Point<3>(0.31371, 0.27183, 0.41421));
@@ -307,13 +328,22 @@ namespace Nacre
   Expression::operator()(const Point<3> &point) const
   {
     if (constant_)
-      return value_;
-    const double value = function_->value(point);
+      return factor_ * value_;
+    const double value = factor_ * function_->value(point);
     AssertThrow(std::isfinite(value),
                 ExcMessage(not_finite(where_, text_, value) + " at " +
                            describe_point(point, variables_) +
                            "; it must be finite."));
     return value;
+  }
+
+
+  void
+  Expression::set_time(const double time, const double factor)
+  {
+    if (function_ != nullptr)
+      function_->set_time(time);
+    factor_ = factor;
   }
 
 
@@ -333,9 +363,10 @@ namespace Nacre
 
   VectorExpression::VectorExpression(const std::string &text,
                                      const std::string &where,
-                                     const Constants   &constants)
+                                     const Constants   &constants,
+                                     const std::string &variables)
   {
-    const auto parts = Text::split(text, ',', where);
+    const auto parts = components_of(text, where);
     AssertThrow(parts.size() == 3,
                 ExcMessage(quote(where, Text::trim(text)) + " has " +
                            std::to_string(parts.size()) +
@@ -343,7 +374,8 @@ namespace Nacre
                            "'fx, fy, fz'."));
     const char *const axes[] = {" (x)", " (y)", " (z)"};
     for (unsigned int c = 0; c < 3; ++c)
-      components_[c] = Expression(parts[c], where + axes[c], constants);
+      components_[c] =
+        Expression(parts[c], where + axes[c], constants, variables);
   }
 
 
@@ -354,6 +386,14 @@ namespace Nacre
     for (unsigned int c = 0; c < 3; ++c)
       value[c] = components_[c](point);
     return value;
+  }
+
+
+  void
+  VectorExpression::set_time(const double time, const double factor)
+  {
+    for (Expression &component : components_)
+      component.set_time(time, factor);
   }
 
 
@@ -382,16 +422,9 @@ namespace Nacre
                  const std::string &where,
                  const Constants   &constants)
   {
-    const std::string given = Text::trim(text);
-    auto              parts = Text::split(given, ',', where);
-    // "(a, b, c)" is one part at first.
-    if (parts.size() == 1 && given.front() == '(' && given.back() == ')')
-      {
-        const auto inside = given.substr(1, given.size() - 2);
-        parts             = Text::split(inside, ',', where);
-      }
+    const auto parts = components_of(text, where);
     AssertThrow(parts.size() == 3,
-                ExcMessage(quote(where, given) + " has " +
+                ExcMessage(quote(where, Text::trim(text)) + " has " +
                            std::to_string(parts.size()) +
                            " components; a point is '(x, y, z)'."));
     Point<3> point;

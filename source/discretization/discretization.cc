@@ -202,7 +202,8 @@ namespace Nacre
     make_hanging_node_constraints(geometry_dof_handler_).distribute(geometry_);
     geometry_.update_ghost_values();
 
-    if (element_.type == ElementType::lagrange)
+    // FE_Q(2) contains the 8-node space.
+    if (element_.reference_cell() == ReferenceCells::Quadrilateral)
       {
         auto mapping = std::make_unique<MappingQCache<dim, spacedim>>(
           mapping_degree == 0 ? degree() : mapping_degree);

@@ -105,6 +105,16 @@ namespace Nacre
       for (unsigned int i = 0; i < dofs.size(); ++i)
         local[i] = (*u)(dofs[i]);
     }
+
+    Energies
+    sum_over_ranks(const Energies &mine, const MPI_Comm communicator)
+    {
+      Energies sum;
+      sum.membrane = Utilities::MPI::sum(mine.membrane, communicator);
+      sum.bending  = Utilities::MPI::sum(mine.bending, communicator);
+      sum.edge     = Utilities::MPI::sum(mine.edge, communicator);
+      return sum;
+    }
   } // namespace
 
   ShellOperator::ShellOperator(const Discretization        &discretization,
@@ -173,29 +183,65 @@ namespace Nacre
                                  Matrix                          &matrix,
                                  Vector &right_hand_side) const
   {
+    assemble_at(nullptr, nullptr, constraints, matrix, right_hand_side);
+  }
+
+  Energies
+  ShellOperator::assemble(const Vector                    &u,
+                          const AffineConstraints<double> &constraints,
+                          Matrix                          &matrix,
+                          Vector                          &right_hand_side,
+                          const Inertia                   *inertia) const
+  {
+    return sum_over_ranks(
+      assemble_at(&u, inertia, constraints, matrix, right_hand_side),
+      discretization_.communicator());
+  }
+
+  Energies
+  ShellOperator::assemble_at(const Vector                    *u,
+                             const Inertia                   *inertia,
+                             const AffineConstraints<double> &constraints,
+                             Matrix                          &matrix,
+                             Vector &right_hand_side) const
+  {
     matrix          = 0.;
     right_hand_side = 0.;
-    MatrixScatter scatter(constraints, matrix, right_hand_side);
-    // The residual at zero displacement is the negative load.
-    dealii::Vector<double> load;
-    loop(nullptr, true, [&](const CopyData &copy) {
+    MatrixScatter          scatter(constraints, matrix, right_hand_side);
+    dealii::Vector<double> force;
+    FullMatrix<double>     tangent;
+    Energies               sum;
+    loop(u, inertia, true, [&](const CopyData &copy) {
       copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
-        load = terms.residual;
-        load *= -1.;
-        scatter.add(terms.tangent, load, dofs);
+        force = terms.residual;
+        force *= -1.;
+        if (u == nullptr)
+          scatter.add(terms.tangent, force, dofs);
+        else
+          {
+            // Nearly symmetric: its symmetric part iterates as well, and
+            // suits a symmetric solver.
+            tangent = terms.tangent;
+            tangent.symmetrize();
+            scatter.add(tangent, force, dofs);
+          }
+        sum += terms.energies;
       });
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);
     add_point_forces(constraints, 1., right_hand_side);
+    return sum;
   }
 
   Energies
-  ShellOperator::residual(const Vector &u, Vector &result) const
+  ShellOperator::residual(const Vector  &u,
+                          Vector        &result,
+                          const Inertia *inertia) const
   {
     result = 0.;
     Energies sum;
-    loop(&u, false, [&](const CopyData &copy) {
+    loop(&u, inertia, false, [&](const CopyData &copy) {
       copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
         result.add(dofs,
                    std::vector<double>(terms.residual.begin(),
@@ -207,11 +253,7 @@ namespace Nacre
     AffineConstraints<double> none;
     none.close();
     add_point_forces(none, -1., result);
-    const auto communicator = discretization_.communicator();
-    sum.membrane            = Utilities::MPI::sum(sum.membrane, communicator);
-    sum.bending             = Utilities::MPI::sum(sum.bending, communicator);
-    sum.edge                = Utilities::MPI::sum(sum.edge, communicator);
-    return sum;
+    return sum_over_ranks(sum, discretization_.communicator());
   }
 
   Energies
@@ -223,15 +265,16 @@ namespace Nacre
   }
 
   void
-  ShellOperator::loop(const Vector *u,
-                      const bool    wants_tangent,
-                      const Copier &copier) const
+  ShellOperator::loop(const Vector  *u,
+                      const Inertia *inertia,
+                      const bool     wants_tangent,
+                      const Copier  &copier) const
   {
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
     const auto cell_worker =
       [&](const Iterator &cell, ScratchData &scratch, CopyData &copy) {
-        this->cell_worker(cell, u, scratch, copy);
+        this->cell_worker(cell, u, inertia, scratch, copy);
       };
     const auto face_worker = [&](const Iterator    &cell,
                                  const unsigned int f,
@@ -281,6 +324,7 @@ namespace Nacre
   ShellOperator::cell_worker(
     const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
     const Vector                                          *u,
+    const Inertia                                         *inertia,
     ScratchData                                           &scratch,
     CopyData                                              &copy) const
   {
@@ -293,6 +337,55 @@ namespace Nacre
     if (!loads_.no_surface_load())
       subtract_surface_loads(scratch.kinematics->cell_values(),
                              copy.terms.residual);
+    if (loads_.pressure_follows())
+      subtract_following_pressure(scratch.kinematics->cell_values(),
+                                  scratch.u,
+                                  copy.terms);
+    if (inertia != nullptr)
+      inertia->add(cell,
+                   copy.dofs,
+                   discretization_.node_dofs(),
+                   copy.terms.residual,
+                   copy.wants_tangent ? &copy.terms.tangent : nullptr);
+  }
+
+  void
+  ShellOperator::subtract_following_pressure(const ShellCellValues &values,
+                                             const dealii::Vector<double> &u,
+                                             LocalTerms &terms) const
+  {
+    const auto &shapes = values.shapes();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        auto phi = values.frame(q).a_cov;
+        for (unsigned int a = 0; u.size() > 0 && a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            for (unsigned int alpha = 0; alpha < dim; ++alpha)
+              phi[alpha][c] +=
+                shapes.gradient(q, a)[alpha] * u[values.dof(a, c)];
+        const double p =
+          loads_.pressure(values.point(q)) * values.JxW(q) / values.frame(q).j0;
+        const auto force = p * cross_product_3d(phi[0], phi[1]);
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            terms.residual[values.dof(a, c)] -= shapes.value(q, a) * force[c];
+        if (!terms.wants_tangent)
+          continue;
+        for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+          {
+            // d(phi,1 x phi,2) = du,1 x phi,2 + phi,1 x du,2 = m x du
+            const auto m = shapes.gradient(q, b)[1] * phi[0] -
+                           shapes.gradient(q, b)[0] * phi[1];
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
+                  const double       w = p * shapes.value(q, a);
+                  terms.tangent(values.dof(a, c), values.dof(b, e)) -= w * m[d];
+                  terms.tangent(values.dof(a, c), values.dof(b, d)) += w * m[e];
+                }
+          }
+      }
   }
 
   void
@@ -388,9 +481,10 @@ namespace Nacre
     for (unsigned int k = 0; k < force_points_.size(); ++k)
       if (force_points_[k].is_mine)
         {
-          const auto            &place = force_points_[k];
-          const auto            &force = loads_.point_forces()[k].force;
-          const auto             n     = discretization_.node_dofs().size();
+          const auto &place = force_points_[k];
+          const auto  force =
+            loads_.point_forces()[k].force(loads_.point_forces()[k].position);
+          const auto             n = discretization_.node_dofs().size();
           dealii::Vector<double> local(n);
           std::vector<types::global_dof_index> dofs(n);
           place.cell->get_dof_indices(dofs);

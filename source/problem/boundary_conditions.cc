@@ -39,9 +39,10 @@ namespace Nacre
     {
       for (const auto &[name, direction] : component_names)
         if (name == key)
-          return {direction,
-                  Expression(value, where + " (" + key + ")", constants),
-                  where + ": " + key + " = " + value};
+          return {
+            direction,
+            Expression(value, where + " (" + key + ")", constants, "x,y,z,t"),
+            where + ": " + key + " = " + value};
       auto names = BoundaryConditions::condition_names();
       AssertThrow(false,
                   ExcMessage(
@@ -93,8 +94,10 @@ namespace Nacre
       AssertThrow(conditions.rotation == nullptr,
                   ExcMessage(where + ": '" + item +
                              "' prescribes the rotation a second time."));
-      conditions.rotation =
-        std::make_unique<Expression>(text, where + " (rotation)", constants);
+      conditions.rotation = std::make_unique<Expression>(text,
+                                                         where + " (rotation)",
+                                                         constants,
+                                                         "x,y,z,t");
     };
 
     const auto [key, value] = Text::key_and_value(item);
@@ -198,6 +201,21 @@ namespace Nacre
           }
         points_.push_back(std::move(support));
       }
+  }
+
+  void
+  BoundaryConditions::set_time(const double time, const double factor)
+  {
+    for (auto &[id, conditions] : edges_)
+      {
+        for (auto &condition : conditions.displacements)
+          condition.value.set_time(time, factor);
+        if (conditions.rotation != nullptr)
+          conditions.rotation->set_time(time, factor);
+      }
+    for (auto &support : points_)
+      for (auto &condition : support.displacements)
+        condition.value.set_time(time, factor);
   }
 
   const std::map<types::boundary_id, EdgeConditions> &

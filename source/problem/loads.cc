@@ -33,15 +33,19 @@ namespace Nacre
                 parameter + ", '" + place + "'");
         }
     }
+
+    /** Names that a load's expression may use. */
+    const std::string variables = "x,y,z,t";
   } // namespace
 
   Loads::Loads()
     : ParameterAcceptor("/Loads")
   {
-    add_parameter("Force per area",
-                  force_text_,
-                  "Components along x, y, z, expressions of x, y, z. Units: "
-                  "force/length^2.");
+    add_parameter(
+      "Force per area",
+      force_text_,
+      "Components along x, y, z; as all loads, expressions of x, y, "
+      "z and the time t. Units: force/length^2.");
     add_parameter("Gravity",
                   gravity_text_,
                   "Acceleration along x, y, z; the weight per area is Density "
@@ -50,6 +54,10 @@ namespace Nacre
                   pressure_text_,
                   "Along the unit normal t0 of the mid-surface, an expression "
                   "of x, y, z. Units: force/length^2.");
+    add_parameter("Pressure follows",
+                  follows_,
+                  "Whether the pressure acts along the normal and on the area "
+                  "of the deformed surface, given at the undeformed points.");
     add_parameter("Edge forces",
                   edge_forces_text_,
                   "Forces per length of edges: 'edge[, edge]: fx, fy, fz; "
@@ -66,49 +74,58 @@ namespace Nacre
   void
   Loads::prepare(const Midsurface &midsurface, const Constants &constants)
   {
-    force_   = VectorExpression(force_text_, "Loads/Force per area", constants);
-    gravity_ = VectorExpression(gravity_text_, "Loads/Gravity", constants);
-    pressure_ = Expression(pressure_text_, "Loads/Pressure", constants);
+    force_ = VectorExpression(force_text_,
+                              "Loads/Force per area",
+                              constants,
+                              variables);
+    gravity_ =
+      VectorExpression(gravity_text_, "Loads/Gravity", constants, variables);
+    pressure_ =
+      Expression(pressure_text_, "Loads/Pressure", constants, variables);
 
     const auto unique = [](const bool inserted, const std::string &where) {
       AssertThrow(inserted, ExcMessage(where + " stands twice."));
     };
     edge_forces_.clear();
-    for_each_entry(edge_forces_text_,
-                   "Loads/Edge forces",
-                   [&](const auto &edge, const auto &value, const auto &where) {
-                     unique(
-                       edge_forces_
-                         .emplace(midsurface.edge_id(edge, where),
-                                  VectorExpression(value, where, constants))
-                         .second,
-                       where);
-                   });
-    edge_moments_.clear();
-    for_each_entry(edge_moments_text_,
-                   "Loads/Edge moments",
-                   [&](const auto &edge, const auto &value, const auto &where) {
-                     unique(edge_moments_
-                              .emplace(midsurface.edge_id(edge, where),
-                                       Expression(value, where, constants))
-                              .second,
-                            where);
-                   });
-    point_forces_.clear();
     for_each_entry(
-      point_forces_text_,
-      "Loads/Point forces",
-      [&](const auto &point, const auto &value, const auto &where) {
-        point_forces_.push_back({evaluate_point(point, where, constants),
-                                 evaluate_point(value, where, constants),
-                                 where});
+      edge_forces_text_,
+      "Loads/Edge forces",
+      [&](const auto &edge, const auto &value, const auto &where) {
+        unique(edge_forces_
+                 .emplace(midsurface.edge_id(edge, where),
+                          VectorExpression(value, where, constants, variables))
+                 .second,
+               where);
       });
+    edge_moments_.clear();
+    for_each_entry(
+      edge_moments_text_,
+      "Loads/Edge moments",
+      [&](const auto &edge, const auto &value, const auto &where) {
+        unique(edge_moments_
+                 .emplace(midsurface.edge_id(edge, where),
+                          Expression(value, where, constants, variables))
+                 .second,
+               where);
+      });
+    point_forces_.clear();
+    for_each_entry(point_forces_text_,
+                   "Loads/Point forces",
+                   [&](const auto &point,
+                       const auto &value,
+                       const auto &where) {
+                     point_forces_.push_back(
+                       {evaluate_point(point, where, constants),
+                        VectorExpression(value, where, constants, variables),
+                        where});
+                   });
   }
 
   bool
   Loads::no_surface_load() const
   {
-    return force_.is_zero() && gravity_.is_zero() && pressure_.is_zero();
+    return force_.is_zero() && gravity_.is_zero() &&
+           (follows_ || pressure_.is_zero());
   }
 
   Tensor<1, 3>
@@ -116,8 +133,34 @@ namespace Nacre
                         const Tensor<1, 3> &t0,
                         const double        area_density) const
   {
-    return force_(point) + area_density * gravity_(point) +
-           pressure_(point) * t0;
+    const double dead_pressure = follows_ ? 0. : pressure_(point);
+    return force_(point) + area_density * gravity_(point) + dead_pressure * t0;
+  }
+
+  bool
+  Loads::pressure_follows() const
+  {
+    return follows_ && has_pressure();
+  }
+
+  double
+  Loads::pressure(const Point<3> &point) const
+  {
+    return pressure_(point);
+  }
+
+  void
+  Loads::set_time(const double time, const double factor)
+  {
+    force_.set_time(time, factor);
+    gravity_.set_time(time, factor);
+    pressure_.set_time(time, factor);
+    for (auto &[edge, force] : edge_forces_)
+      force.set_time(time, factor);
+    for (auto &[edge, moment] : edge_moments_)
+      moment.set_time(time, factor);
+    for (auto &point_force : point_forces_)
+      point_force.force.set_time(time, factor);
   }
 
   bool

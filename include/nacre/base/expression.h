@@ -34,7 +34,7 @@ namespace Nacre
      * @param where the parameter that holds it, for messages
      * @param constants named constants
      * @param variables comma-separated names of the point's coordinates, at
-     *        most three
+     *        most three; a fourth one is the time
      */
     Expression(const std::string &text,
                const std::string &where,
@@ -48,6 +48,10 @@ namespace Nacre
     /** The value at @p point; throws if it isn't finite. */
     double
     operator()(const Point<3> &point) const;
+
+    /** Set the time, 0 before, and a factor of all values, 1 before. */
+    void
+    set_time(const double time, const double factor = 1.);
 
     /** Whether the text mentions none of the variables. */
     bool
@@ -63,6 +67,7 @@ namespace Nacre
     std::string                        variables_;
     bool                               constant_ = true;
     double                             value_    = 0.;
+    double                             factor_   = 1.;
     std::unique_ptr<FunctionParser<3>> function_;
   };
 
@@ -76,10 +81,15 @@ namespace Nacre
     /** From "fx, fy, fz"; anything but three components throws. */
     VectorExpression(const std::string &text,
                      const std::string &where,
-                     const Constants   &constants);
+                     const Constants   &constants,
+                     const std::string &variables = "x,y,z");
 
     Tensor<1, 3>
     operator()(const Point<3> &point) const;
+
+    /** As Expression::set_time(). */
+    void
+    set_time(const double time, const double factor = 1.);
 
     bool
     is_zero() const;

@@ -34,6 +34,13 @@ namespace Nacre
 
     NodalMapping(const NodalMapping &other) = default;
 
+    /** The nodes need not lie at the mesh's vertices. */
+    bool
+    preserves_vertex_locations() const override
+    {
+      return false;
+    }
+
     std::unique_ptr<Mapping<dim, spacedim>>
     clone() const override
     {

@@ -6,6 +6,7 @@
 
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/kinematics.h>
+#include <nacre/forms/mass_terms.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -57,12 +58,28 @@ namespace Nacre
                     Vector                          &right_hand_side) const;
 
     /**
-     * The residual K u - f (force) at the ghosted displacement @p u, without
+     * The linearised system K(u) du = f - F(u) at the ghosted displacement
+     * @p u: the tangent and the negative residual, with the constraints
+     * eliminated. If u fulfils the prescribed displacements, the constraints
+     * of du are homogeneous. Returns the strain energy (force times length).
+     * @param inertia inertial forces of a time integrator, if any
+     */
+    Energies
+    assemble(const Vector                    &u,
+             const AffineConstraints<double> &constraints,
+             Matrix                          &matrix,
+             Vector                          &right_hand_side,
+             const Inertia                   *inertia = nullptr) const;
+
+    /**
+     * The residual F(u) - f (force) at the ghosted displacement @p u, without
      * any constraint; its virtual work on a displacement of an edge is the
      * reaction. Returns the strain energy (force times length).
      */
     Energies
-    residual(const Vector &u, Vector &result) const;
+    residual(const Vector  &u,
+             Vector        &result,
+             const Inertia *inertia = nullptr) const;
 
     /** Parts of the strain energy at the ghosted displacement @p u. */
     Energies
@@ -90,13 +107,25 @@ namespace Nacre
 
     using Copier = std::function<void(const CopyData &)>;
 
+    /** assemble() at @p u, null for zero; the energy of this rank's cells. */
+    Energies
+    assemble_at(const Vector                    *u,
+                const Inertia                   *inertia,
+                const AffineConstraints<double> &constraints,
+                Matrix                          &matrix,
+                Vector                          &right_hand_side) const;
+
     /** The loop. @param u ghosted displacement, or null for zero. */
     void
-    loop(const Vector *u, const bool wants_tangent, const Copier &copier) const;
+    loop(const Vector  *u,
+         const Inertia *inertia,
+         const bool     wants_tangent,
+         const Copier  &copier) const;
 
     void
     cell_worker(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
                 const Vector                                          *u,
+                const Inertia                                         *inertia,
                 ScratchData                                           &scratch,
                 CopyData &copy) const;
 
@@ -110,6 +139,15 @@ namespace Nacre
     void
     subtract_surface_loads(const ShellCellValues  &values,
                            dealii::Vector<double> &residual) const;
+
+    /**
+     * Pressure along the deformed normal on the deformed area: the force per
+     * reference area is p phi,1 x phi,2; with its derivative.
+     */
+    void
+    subtract_following_pressure(const ShellCellValues        &values,
+                                const dealii::Vector<double> &u,
+                                LocalTerms                   &terms) const;
 
     void
     subtract_edge_loads(const types::boundary_id id,

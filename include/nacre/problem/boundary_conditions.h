@@ -76,6 +76,10 @@ namespace Nacre
     void
     prepare(const Midsurface &midsurface, const Constants &constants);
 
+    /** Evaluate all values at @p time and multiply them by @p factor. */
+    void
+    set_time(const double time, const double factor);
+
     const std::map<types::boundary_id, EdgeConditions> &
     edges() const;
 

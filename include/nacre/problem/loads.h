@@ -18,12 +18,15 @@ namespace Nacre
   /** A force at one point of the mid-surface. */
   struct PointForce
   {
-    Point<3>     position;
-    Tensor<1, 3> force;
-    std::string  source;
+    Point<3>         position;
+    VectorExpression force;
+    std::string      source;
   };
 
-  /** Dead loads, given as expressions of x, y, z on the undeformed surface. */
+  /**
+   * Loads, given as expressions of x, y, z on the undeformed surface and of the
+   * time t: dead loads, and a pressure that may follow the deformed surface.
+   */
   class Loads : public ParameterAcceptor
   {
   public:
@@ -33,14 +36,19 @@ namespace Nacre
     void
     prepare(const Midsurface &midsurface, const Constants &constants);
 
-    /** Whether nothing acts on the cells. */
+    /** Evaluate all loads at @p time and multiply them by @p factor. */
+    void
+    set_time(const double time, const double factor);
+
+    /** Whether no dead load acts on the cells. */
     bool
     no_surface_load() const;
 
     /**
-     * Force per area of the mid-surface (force/length^2) at a point with unit
-     * normal @p t0 and mass per area @p area_density:
-     * force + area_density * gravity + pressure * t0.
+     * Dead force per area of the mid-surface (force/length^2) at a point with
+     * unit normal @p t0 and mass per area @p area_density:
+     * force + area_density * gravity + pressure * t0, the latter unless it
+     * follows.
      */
     Tensor<1, 3>
     force_per_area(const Point<3>     &point,
@@ -50,6 +58,14 @@ namespace Nacre
     /** Whether a pressure acts: then all cells must be oriented alike. */
     bool
     has_pressure() const;
+
+    /** Whether the pressure acts along the deformed normal and area. */
+    bool
+    pressure_follows() const;
+
+    /** Pressure (force/length^2) at a point of the undeformed surface. */
+    double
+    pressure(const Point<3> &point) const;
 
     /** Forces per length of edges (force/length). */
     const std::map<types::boundary_id, VectorExpression> &
@@ -69,6 +85,7 @@ namespace Nacre
     std::string force_text_    = "0, 0, 0";
     std::string gravity_text_  = "0, 0, 0";
     std::string pressure_text_ = "0";
+    bool        follows_       = false;
     std::string edge_forces_text_;
     std::string edge_moments_text_;
     std::string point_forces_text_;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_analysis_path_analysis_h
+#define nacre_analysis_path_analysis_h
+
+#include <nacre/analysis/path_parameters.h>
+#include <nacre/analysis/shell_system.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace Nacre
+{
+  /** Everything that a path goes on from, and what its last step took. */
+  struct PathState
+  {
+    unsigned int step = 0;
+    double       time = 0.;
+    /** Size of the next step. */
+    double next_step = 0.;
+    /** Good steps since the last change of size. */
+    unsigned int n_good_steps = 0;
+    MotionState  motion;
+
+    /** @name The last step */
+    //@{
+    double       load_factor       = 0.;
+    unsigned int iterations        = 0;
+    double       residual          = 0.;
+    unsigned int n_negative_pivots = 0;
+    //@}
+  };
+
+  /**
+   * Follows a shell along a load path or in time, with steps that are halved
+   * where one fails.
+   */
+  class PathAnalysis
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+    /** Called for the start and after each step. */
+    using Observer = std::function<void(const PathState &)>;
+    /** Words for the user, as of a step that is tried again. */
+    using Messenger = std::function<void(const std::string &)>;
+
+    /**
+     * @param section gives the mass; not used in statics
+     */
+    PathAnalysis(const PathParameters &parameters,
+                 ShellSystem          &system,
+                 const SectionLaw     &section);
+
+    /** The state at t = 0; collective. */
+    PathState
+    initial_state() const;
+
+    /**
+     * Go on from @p state to the end time. If a step can't be made small
+     * enough, or a cell is turned inside out, throws ExcMessage; @p state is
+     * then the last good one.
+     */
+    void
+    run(PathState &state, const Observer &observer, const Messenger &messenger);
+
+    /** Null in statics. */
+    const MassTerms *
+    mass() const
+    {
+      return mass_ ? &*mass_ : nullptr;
+    }
+
+  private:
+    /** A step that failed says why. */
+    struct Attempt
+    {
+      NewtonSolver::Result result;
+      MotionState          motion;
+    };
+
+    Attempt
+    try_step(const PathState &state, const double dt, const bool line_search);
+
+    Attempt
+    static_step(const PathState &state, const double dt, const bool search);
+
+    Attempt
+    dynamic_step(const PathState &state, const double dt, const bool search);
+
+    /**
+     * Dynamic relaxation: implicit Euler steps of growing size, each from rest,
+     * of a shell of unit density:
+     * M (u_{k+1} - u_k) / dt^2 + F(u_{k+1}) = f. The energy falls with each,
+     * until Newton's method converges to a stable state.
+     */
+    Attempt
+    relax(const PathState &state);
+
+    /** Empty, or why the deformation is impossible. */
+    std::string
+    check_deformation(const Vector &before, const Vector &after) const;
+
+    void
+    adapt_step(PathState &state, const Attempt &attempt) const;
+
+    const PathParameters    &parameters_;
+    ShellSystem             &system_;
+    const TimeIntegrator     integrator_;
+    std::optional<MassTerms> mass_;
+  };
+} // namespace Nacre
+
+#endif

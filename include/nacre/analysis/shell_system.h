@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_analysis_shell_system_h
+#define nacre_analysis_shell_system_h
+
+#include <nacre/base/expression.h>
+#include <nacre/discretization/displacement_conditions.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/problem/loads.h>
+#include <nacre/solvers/direct_solver.h>
+#include <nacre/solvers/newton_solver.h>
+
+#include <memory>
+
+namespace Nacre
+{
+  /**
+   * The nonlinear algebraic system of a shell at a time: residual, tangent and
+   * constraints at any displacement, with the loads and the prescribed
+   * displacements of that time.
+   */
+  class ShellSystem
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+
+    /** @param load_factor factor of all loads and prescribed values over t */
+    ShellSystem(const Discretization &discretization,
+                const ShellOperator  &shell_operator,
+                BoundaryConditions   &boundary_conditions,
+                Loads                &loads,
+                Expression           &load_factor);
+
+    /** Take loads and conditions at @p time; collective. */
+    void
+    set_time(const double time);
+
+    /** Take the loads and prescribed rotations at @p time instead. */
+    void
+    set_load_time(const double time);
+
+    /** Factor of the loads at the time of set_time(). */
+    double
+    load_factor() const
+    {
+      return factor_;
+    }
+
+    /** Hanging nodes and prescribed displacements at the time set. */
+    const AffineConstraints<double> &
+    constraints() const
+    {
+      return conditions_->constraints();
+    }
+
+    /** Solve K(u) du = -r(u) such that u + du fulfils the constraints. */
+    NewtonSolver::Step
+    solve_linearised(const Vector &u, Vector &du)
+    {
+      return solve_linearised(u, u, du, nullptr, 1.);
+    }
+
+    /**
+     * The same with inertia at a displacement @p u within a time step, such
+     * that the @p end of the step, of which u holds the @p share,
+     * fulfils the constraints: end + du / share.
+     */
+    NewtonSolver::Step
+    solve_linearised(const Vector  &u,
+                     const Vector  &end,
+                     Vector        &du,
+                     const Inertia *inertia,
+                     const double   share);
+
+    /** -r(u) . du with the constraints eliminated. */
+    double
+    work(const Vector  &u,
+         const Vector  &du,
+         const Inertia *inertia = nullptr) const;
+
+    /**
+     * The acceleration (length/time^2) that the forces at @p u and the damping
+     * (1/time) at the velocity @p v give; zero where displacements are
+     * prescribed.
+     */
+    Vector
+    acceleration(const Vector    &u,
+                 const Vector    &v,
+                 const double     damping,
+                 const MassTerms &mass);
+
+    /** trace K(u) / trace M (1/time^2). */
+    double
+    stiffness_to_mass(const Vector &u, const MassTerms &mass);
+
+    /** Values of @p function at the undeformed nodes. */
+    Vector
+    interpolate(const VectorExpression &function) const;
+
+    /** A vector with ghosts and the entries of @p owned. */
+    Vector
+    with_ghosts(const Vector &owned) const;
+
+    /** A zero vector of owned entries. */
+    Vector
+    owned_vector() const;
+
+    /** Largest dimension of the shell (length). */
+    double
+    size() const
+    {
+      return size_;
+    }
+
+    const Discretization &
+    discretization() const
+    {
+      return discretization_;
+    }
+
+    const ShellOperator &
+    shell_operator() const
+    {
+      return shell_operator_;
+    }
+
+    /** Strain energy at the last solve_linearised(). */
+    const Energies &
+    energies() const
+    {
+      return energies_;
+    }
+
+  private:
+    /** Constraints of du such that end + du / share fulfils those of the time. */
+    AffineConstraints<double>
+    increment_constraints(const Vector &ghosted_end, const double share) const;
+
+    const Discretization &discretization_;
+    const ShellOperator  &shell_operator_;
+    BoundaryConditions   &boundary_conditions_;
+    Loads                &loads_;
+    Expression           &load_factor_;
+    double                factor_ = 0.;
+    double                size_;
+
+    std::unique_ptr<DisplacementConditions> conditions_;
+    TrilinosWrappers::SparseMatrix          matrix_;
+    DirectSolver                            solver_;
+    Energies                                energies_;
+  };
+} // namespace Nacre
+
+#endif

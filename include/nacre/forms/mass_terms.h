@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_mass_terms_h
+#define nacre_forms_mass_terms_h
+
+#include <nacre/discretization/discretization.h>
+#include <nacre/mechanics/section_law.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <functional>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * The consistent mass of the shell, the same for all three components:
+   * M_ab = int rho h N^a N^b dA over the undeformed cells (mass), with the full
+   * rule, so that it is regular whatever rule the strains use. The rotational
+   * inertia rho h^3/12 is left out, as Kirchhoff-Love theory of thin shells
+   * does.
+   */
+  class MassTerms
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+
+    /** Throws where the density is not positive; collective. */
+    MassTerms(const Discretization &discretization, const SectionLaw &section);
+
+    /** A mass of 1 per area. */
+    explicit MassTerms(const Discretization &discretization);
+
+    /** M_ab of the nodes of one of this rank's cells (mass). */
+    const FullMatrix<double> &
+    cell_matrix(const Triangulation<dim, spacedim>::cell_iterator &cell) const
+    {
+      return cell_matrices_[cell->active_cell_index()];
+    }
+
+    /** M v of a ghosted vector, without constraints. */
+    void
+    vmult(Vector &result, const Vector &v) const;
+
+    /**
+     * M a = b with the constraints eliminated; @p b without constraints, as a
+     * residual is.
+     */
+    void
+    assemble_system(const AffineConstraints<double> &constraints,
+                    const Vector                    &ghosted_b,
+                    TrilinosWrappers::SparseMatrix  &matrix,
+                    Vector                          &right_hand_side) const;
+
+    /** Mass of the whole shell. */
+    double
+    total() const
+    {
+      return total_;
+    }
+
+    /** Sum of the diagonal of M, all three components (mass). */
+    double
+    trace() const;
+
+  private:
+    /** @param area_density mass per area at a point */
+    void
+    make_matrices(
+      const std::function<double(const Point<spacedim> &)> &area_density);
+
+    const Discretization           &discretization_;
+    std::vector<FullMatrix<double>> cell_matrices_; // by active cell index
+    double                          total_ = 0.;
+  };
+
+  /**
+   * Inertial forces that a time integrator adds to the residual: M w, with the
+   * derivative of w with respect to the displacement at which the internal
+   * forces are taken.
+   */
+  struct Inertia
+  {
+    const MassTerms &mass;
+    /** Ghosted: acceleration plus mass damping times velocity. */
+    const TrilinosWrappers::MPI::Vector &w;
+    /** dw/du (1/time^2). */
+    double factor;
+
+    /** Add M w to the residual and, if it has rows, factor M to the tangent. */
+    void
+    add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+        const std::vector<types::global_dof_index>            &dofs,
+        const std::vector<unsigned int>                       &node_dofs,
+        dealii::Vector<double>                                &residual,
+        FullMatrix<double>                                    *tangent) const;
+  };
+} // namespace Nacre
+
+#endif

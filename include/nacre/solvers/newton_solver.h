@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_solvers_newton_solver_h
+#define nacre_solvers_newton_solver_h
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <functional>
+#include <string>
+
+namespace Nacre
+{
+  /**
+   * Newton's method for r(u) = 0 in terms of callbacks.
+   *
+   * It stops when the last increment is small, |du|_max at most
+   * increment_tolerance times the largest change of u since the start, or when
+   * the work of the residual on it, du . r, is at most energy_tolerance times
+   * the largest such work before. The residual's own norm is no measure: for
+   * thin shells it stagnates at round-off times the membrane stiffness.
+   */
+  class NewtonSolver
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    struct Parameters
+    {
+      unsigned int max_iterations      = 25;
+      double       increment_tolerance = 1e-8;
+      double       energy_tolerance    = 1e-18;
+      /** Factor of all increments, 1 for Newton's method. */
+      double damping = 1.;
+      /** An increment beyond this (length) counts as divergence. */
+      double max_increment = 1e300;
+    };
+
+    /** One linearisation K du = -r(u). */
+    struct Step
+    {
+      /** |r| over the free dofs (force). */
+      double residual = 0.;
+      /** -r . du over the free dofs (force times length). */
+      double work = 0.;
+      /** Negative eigenvalues of K. */
+      unsigned int n_negative_pivots = 0;
+    };
+
+    struct Result
+    {
+      bool         converged  = false;
+      unsigned int iterations = 0;
+      /** Those of the last linearisation. */
+      Step last;
+      /** |r| of the first linearisation. */
+      double first_residual = 0.;
+      /** Why it failed, for the user. */
+      std::string reason;
+    };
+
+    /** Solve K(u) du = -r(u); u is owned entries only. */
+    using Linearise = std::function<Step(const Vector &u, Vector &du)>;
+    /** -r(u) . du over the free dofs. */
+    using Work = std::function<double(const Vector &u, const Vector &du)>;
+
+    explicit NewtonSolver(const Parameters &parameters);
+
+    /**
+     * Change @p u into the solution; after a failure it is meaningless.
+     * @param work if given, increments are shortened until the work of the
+     *   residual along them no longer grows (line search)
+     */
+    Result
+    solve(Vector &u, const Linearise &linearise, const Work &work = {}) const;
+
+  private:
+    /** The factor of the increment. */
+    static double
+    search(const Vector &u,
+           const Vector &du,
+           const double  initial_work,
+           const Work   &work);
+
+    const Parameters parameters_;
+  };
+} // namespace Nacre
+
+#endif

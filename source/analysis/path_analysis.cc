@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/analysis/deformation_check.h>
+#include <nacre/analysis/path_analysis.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Nacre
+{
+  PathAnalysis::PathAnalysis(const PathParameters &parameters,
+                             ShellSystem          &system,
+                             const SectionLaw     &section)
+    : parameters_(parameters)
+    , system_(system)
+    , integrator_(parameters.scheme,
+                  parameters.spectral_radius,
+                  parameters.mass_damping)
+  {
+    if (parameters.type == AnalysisType::dynamic)
+      mass_.emplace(system.discretization(), section);
+    else if (parameters.type == AnalysisType::relaxation)
+      mass_.emplace(system.discretization());
+  }
+
+  PathState
+  PathAnalysis::initial_state() const
+  {
+    PathState state;
+    state.next_step = parameters_.time_step;
+    system_.set_time(0.);
+    state.load_factor   = system_.load_factor();
+    MotionState &motion = state.motion;
+    motion.u            = system_.owned_vector();
+    motion.v            = motion.u;
+    motion.a            = motion.u;
+    if (parameters_.type != AnalysisType::dynamic)
+      return state;
+
+    motion.u = system_.interpolate(parameters_.initial_displacement);
+    motion.v = system_.interpolate(parameters_.initial_velocity);
+    system_.constraints().distribute(motion.u);
+    motion.a = system_.acceleration(motion.u,
+                                    motion.v,
+                                    parameters_.mass_damping,
+                                    *mass_);
+    return state;
+  }
+
+  void
+  PathAnalysis::run(PathState       &state,
+                    const Observer  &observer,
+                    const Messenger &messenger)
+  {
+    if (state.step == 0)
+      observer(state);
+    const double end       = parameters_.end_time;
+    const double tolerance = 1e-10 * parameters_.time_step;
+    while (state.time < end - tolerance)
+      {
+        // The last two steps share what is left.
+        const double left = end - state.time;
+        double       dt   = std::min(state.next_step, left);
+        if (dt < left && left - dt < 1e-3 * dt)
+          dt = left;
+        const bool search  = (parameters_.line_search == LineSearch::always);
+        Attempt    attempt = try_step(state, dt, search);
+        if (!attempt.result.converged &&
+            parameters_.line_search == LineSearch::automatic)
+          {
+            Attempt again = try_step(state, dt, true);
+            if (again.result.converged)
+              attempt = std::move(again);
+          }
+        std::ostringstream text;
+        text << "step " << state.step + 1 << " to t = " << state.time + dt
+             << ": " << attempt.result.reason;
+        if (!attempt.result.converged)
+          {
+            state.next_step    = 0.5 * dt;
+            state.n_good_steps = 0;
+            AssertThrow(
+              state.next_step >= parameters_.minimum_time_step,
+              ExcMessage(
+                text.str() +
+                ". The last good state, at t = " + std::to_string(state.time) +
+                ", is kept. Try a smaller 'Analysis/Minimum time step', or "
+                "'Type = relaxation' or 'dynamic' if the path has a limit or "
+                "a bifurcation point there."));
+            messenger(text.str() + "; trying half the step");
+            continue;
+          }
+        ++state.step;
+        state.time   = std::abs(left - dt) <= tolerance ? end : state.time + dt;
+        state.motion = std::move(attempt.motion);
+        state.load_factor       = system_.load_factor();
+        state.iterations        = attempt.result.iterations;
+        state.residual          = attempt.result.last.residual;
+        state.n_negative_pivots = attempt.result.last.n_negative_pivots;
+        adapt_step(state, attempt);
+        observer(state);
+      }
+  }
+
+  void
+  PathAnalysis::adapt_step(PathState &state, const Attempt &attempt) const
+  {
+    const double growth = 2.;
+    if (attempt.result.iterations > parameters_.newton.max_iterations / 2)
+      state.n_good_steps = 0;
+    else
+      ++state.n_good_steps;
+    if (state.n_good_steps >= 2 &&
+        state.next_step < parameters_.maximum_time_step)
+      {
+        state.next_step =
+          std::min(growth * state.next_step, parameters_.maximum_time_step);
+        state.n_good_steps = 0;
+      }
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::try_step(const PathState &state,
+                         const double     dt,
+                         const bool       line_search)
+  {
+    Attempt    attempt = parameters_.type == AnalysisType::dynamic ?
+                           dynamic_step(state, dt, line_search) :
+                           static_step(state, dt, line_search);
+    const auto check   = [&]() {
+      if (!attempt.result.converged)
+        return;
+      attempt.result.reason =
+        find_impossible_deformation(system_.discretization(),
+                                    system_.with_ghosts(state.motion.u),
+                                    system_.with_ghosts(attempt.motion.u));
+      attempt.result.converged = attempt.result.reason.empty();
+    };
+    check();
+    const bool unstable =
+      !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
+    if (parameters_.type == AnalysisType::relaxation && unstable)
+      attempt = relax(state);
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::static_step(const PathState &state,
+                            const double     dt,
+                            const bool       search)
+  {
+    system_.set_time(state.time + dt);
+    auto parameters          = parameters_.newton;
+    parameters.max_increment = 100. * system_.size();
+    const NewtonSolver newton(parameters);
+    Attempt            attempt{{}, state.motion};
+    const auto         linearise = [&](const Vector &u, Vector &du) {
+      return system_.solve_linearised(u, du);
+    };
+    NewtonSolver::Work work;
+    if (search)
+      work = [&](const Vector &u, const Vector &du) {
+        return system_.work(u, du);
+      };
+    attempt.result = newton.solve(attempt.motion.u, linearise, work);
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::dynamic_step(const PathState &state,
+                             const double     dt,
+                             const bool       search)
+  {
+    const MotionState &start = state.motion;
+    system_.set_time(state.time + dt);
+    auto parameters          = parameters_.newton;
+    parameters.max_increment = 100. * system_.size();
+    const NewtonSolver newton(parameters);
+    // The loads are those of t_f, the constraints those of the end.
+    system_.set_load_time(integrator_.force_time(state.time, dt));
+
+    const auto inertia = [&](const Vector &u_f) {
+      return system_.with_ghosts(integrator_.inertia(start, u_f, dt));
+    };
+    const double factor    = integrator_.inertia_factor(dt);
+    const auto   linearise = [&](const Vector &u_f, Vector &du) {
+      const Vector  w = inertia(u_f);
+      const Inertia terms{*mass_, w, factor};
+      return system_.solve_linearised(u_f,
+                                      integrator_.end_displacement(start, u_f),
+                                      du,
+                                      &terms,
+                                      integrator_.share());
+    };
+    NewtonSolver::Work work;
+    if (search)
+      work = [&](const Vector &u_f, const Vector &du) {
+        const Vector  w = inertia(u_f);
+        const Inertia terms{*mass_, w, factor};
+        return system_.work(u_f, du, &terms);
+      };
+    // Start where a constant velocity would lead.
+    Vector u_f = start.u;
+    u_f.add(integrator_.share() * dt, start.v);
+    Attempt attempt{newton.solve(u_f, linearise, work), {}};
+    attempt.motion = integrator_.end_state(start, u_f, dt);
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::relax(const PathState &state)
+  {
+    auto parameters           = parameters_.newton;
+    parameters.max_increment  = 100. * system_.size();
+    parameters.max_iterations = std::max(8U, parameters.max_iterations / 2);
+    const NewtonSolver newton(parameters);
+
+    Attempt            attempt{{}, state.motion};
+    MotionState        rest       = state.motion;
+    unsigned int       iterations = 0;
+    const unsigned int max_steps  = 400;
+    // sigma = 1/dt^2, from stiff to soft.
+    double sigma = system_.stiffness_to_mass(state.motion.u, *mass_) * 1e-6;
+    const double initial_sigma = sigma;
+    for (unsigned int k = 0; k < max_steps; ++k)
+      {
+        const bool   free      = (sigma < 1e-9 * initial_sigma);
+        const double mu        = free ? 0. : sigma;
+        Vector       u         = rest.u;
+        const auto   linearise = [&](const Vector &trial, Vector &du) {
+          if (mu == 0.)
+            return system_.solve_linearised(trial, du);
+          Vector w(trial);
+          w -= rest.u;
+          w *= mu;
+          const Vector  ghosted = system_.with_ghosts(w);
+          const Inertia terms{*mass_, ghosted, mu};
+          return system_.solve_linearised(trial, trial, du, &terms, 1.);
+        };
+        auto result = newton.solve(u, linearise);
+        iterations += result.iterations;
+        const bool good =
+          result.converged && result.last.n_negative_pivots == 0 &&
+          find_impossible_deformation(system_.discretization(),
+                                      system_.with_ghosts(rest.u),
+                                      system_.with_ghosts(u))
+            .empty();
+        if (good && free)
+          {
+            attempt.result            = result;
+            attempt.result.iterations = iterations;
+            attempt.motion.u          = u;
+            return attempt;
+          }
+        if (good)
+          {
+            rest.u = u;
+            sigma *= 0.25;
+          }
+        else
+          sigma = 8. * std::max(sigma, 1e-9 * initial_sigma);
+        if (sigma > 1e12 * initial_sigma)
+          break;
+      }
+    attempt.result.iterations = iterations;
+    attempt.result.reason = "the dynamic relaxation found no stable state in " +
+                            std::to_string(iterations) + " iterations";
+    return attempt;
+  }
+} // namespace Nacre

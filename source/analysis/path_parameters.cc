@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/analysis/path_parameters.h>
+
+#include <algorithm>
+
+namespace Nacre
+{
+  namespace
+  {
+    double
+    positive(const std::string &text,
+             const std::string &name,
+             const Constants   &constants)
+    {
+      const double value = evaluate_number(text, "Analysis/" + name, constants);
+      AssertThrow(value > 0.,
+                  ExcMessage("Analysis/" + name + ": '" + text +
+                             "' is not positive."));
+      return value;
+    }
+  } // namespace
+
+  PathParameters::PathParameters()
+    : ParameterAcceptor("/Analysis")
+  {
+    add_parameter("Type",
+                  type_text_,
+                  "linear: one solve; static: equilibria along a load path, by "
+                  "Newton's method; relaxation: the same, and by dynamic "
+                  "relaxation where the path is unstable; dynamic: motion in "
+                  "time. All but linear take the kinematics of "
+                  "'Discretization/Kinematics'.",
+                  prm,
+                  Patterns::Selection("linear|static|relaxation|dynamic"));
+    add_parameter("Load factor",
+                  load_factor_text_,
+                  "Factor of all loads and prescribed values, an expression of "
+                  "t; default: t, in dynamics 1. Units: none.");
+    add_parameter("End time",
+                  end_time_text_,
+                  "The path is followed from t = 0 to here. Units: time (in "
+                  "statics: none).");
+    add_parameter(
+      "Time step",
+      time_step_text_,
+      "First step. A step that fails is halved; after two good ones "
+      "it grows again. Units: as End time.");
+    add_parameter("Minimum time step",
+                  minimum_time_step_text_,
+                  "A step that would become smaller ends the run; default: "
+                  "Time step/1000. Units: as End time.");
+    add_parameter("Maximum time step",
+                  maximum_time_step_text_,
+                  "Steps that converge easily grow up to here; default: Time "
+                  "step. Units: as End time.");
+    add_parameter("Maximum iterations",
+                  newton.max_iterations,
+                  "Newton iterations of a step.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Increment tolerance",
+                  newton.increment_tolerance,
+                  "An iteration that changes no displacement by more than this "
+                  "times the largest change of the step ends the step. A "
+                  "residual would be no measure: round-off drowns it.",
+                  prm,
+                  Patterns::Double(1e-14, 1e-2));
+    add_parameter("Energy tolerance",
+                  newton.energy_tolerance,
+                  "So does one with less work of the residual than this times "
+                  "the step's largest.",
+                  prm,
+                  Patterns::Double(0., 1e-4));
+    add_parameter("Damping of iterations",
+                  newton.damping,
+                  "Factor of the increments, for Tangent = frozen.",
+                  prm,
+                  Patterns::Double(0.01, 1.));
+    add_parameter("Line search",
+                  line_search_text_,
+                  "automatic: when a step failed without it.",
+                  prm,
+                  Patterns::Selection("automatic|always|never"));
+    add_parameter("Scheme",
+                  scheme_text_,
+                  "newmark: the trapezoidal rule; generalised alpha, with the "
+                  "spectral radius below; implicit midpoint; implicit euler, "
+                  "of first order, as graphics codes use.",
+                  prm,
+                  Patterns::Selection("newmark|generalised alpha|implicit "
+                                      "midpoint|implicit euler"));
+    add_parameter("Spectral radius",
+                  spectral_radius,
+                  "Of generalised alpha at high frequencies: 1 keeps them, 0 "
+                  "damps them out in a step.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Mass damping",
+                  mass_damping,
+                  "Force per mass and velocity. Units: 1/time.",
+                  prm,
+                  Patterns::Double(0.));
+    add_parameter("Initial displacement",
+                  initial_displacement_text_,
+                  "Along x, y, z, expressions of x, y, z. Units: length.");
+    add_parameter("Initial velocity",
+                  initial_velocity_text_,
+                  "Along x, y, z, expressions of x, y, z. Units: length/time.");
+    add_parameter("VTU steps",
+                  vtu_steps,
+                  "Write the fields every so many steps, if the study writes "
+                  "VTU; 0: of the last one only.");
+    add_parameter("Checkpoint steps",
+                  checkpoint_steps,
+                  "Save the state every so many steps, for 'nacre FILE "
+                  "--restart'; 0: never.");
+  }
+
+  void
+  PathParameters::prepare(const Constants &constants)
+  {
+    const std::vector<std::string> types = {"linear",
+                                            "static",
+                                            "relaxation",
+                                            "dynamic"};
+    type                                 = static_cast<AnalysisType>(
+      std::find(types.begin(), types.end(), type_text_) - types.begin());
+    const std::vector<std::string> searches = {"automatic", "always", "never"};
+    line_search                             = static_cast<LineSearch>(
+      std::find(searches.begin(), searches.end(), line_search_text_) -
+      searches.begin());
+    const auto &schemes = time_scheme_names();
+    scheme              = static_cast<TimeScheme>(
+      std::find(schemes.begin(), schemes.end(), scheme_text_) -
+      schemes.begin());
+
+    const bool is_default = (load_factor_text_ == "default");
+    load_factor           = Expression(!is_default ? load_factor_text_ :
+                             type == AnalysisType::linear  ? "1" :
+                             type == AnalysisType::dynamic ? "1" :
+                                                             "t",
+                             "Analysis/Load factor",
+                             constants,
+                             "x,y,z,t");
+    end_time  = positive(end_time_text_, "End time", constants);
+    time_step = positive(time_step_text_, "Time step", constants);
+    minimum_time_step =
+      minimum_time_step_text_ == "default" ?
+        1e-3 * time_step :
+        positive(minimum_time_step_text_, "Minimum time step", constants);
+    maximum_time_step =
+      maximum_time_step_text_ == "default" ?
+        time_step :
+        positive(maximum_time_step_text_, "Maximum time step", constants);
+    AssertThrow(minimum_time_step <= time_step,
+                ExcMessage("Analysis/Minimum time step: '" +
+                           minimum_time_step_text_ +
+                           "' is larger than the time step."));
+    AssertThrow(maximum_time_step >= time_step,
+                ExcMessage("Analysis/Maximum time step: '" +
+                           maximum_time_step_text_ +
+                           "' is smaller than the time step."));
+    initial_displacement = VectorExpression(initial_displacement_text_,
+                                            "Analysis/Initial displacement",
+                                            constants);
+    initial_velocity     = VectorExpression(initial_velocity_text_,
+                                        "Analysis/Initial velocity",
+                                        constants);
+  }
+} // namespace Nacre

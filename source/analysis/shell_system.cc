@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/analysis/shell_system.h>
+#include <nacre/base/mpi_errors.h>
+
+namespace Nacre
+{
+  ShellSystem::ShellSystem(const Discretization &discretization,
+                           const ShellOperator  &shell_operator,
+                           BoundaryConditions   &boundary_conditions,
+                           Loads                &loads,
+                           Expression           &load_factor)
+    : discretization_(discretization)
+    , shell_operator_(shell_operator)
+    , boundary_conditions_(boundary_conditions)
+    , loads_(loads)
+    , load_factor_(load_factor)
+    , size_(discretization.extent().second)
+    , solver_(discretization.communicator())
+  {
+    set_time(0.);
+    shell_operator_.reinit_matrix(constraints(), matrix_);
+  }
+
+  void
+  ShellSystem::set_time(const double time)
+  {
+    load_factor_.set_time(time);
+    factor_ = load_factor_(Point<3>());
+    loads_.set_time(time, factor_);
+    boundary_conditions_.set_time(time, factor_);
+    conditions_ =
+      std::make_unique<DisplacementConditions>(discretization_,
+                                               boundary_conditions_);
+  }
+
+  void
+  ShellSystem::set_load_time(const double time)
+  {
+    load_factor_.set_time(time);
+    const double factor = load_factor_(Point<3>());
+    loads_.set_time(time, factor);
+    boundary_conditions_.set_time(time, factor);
+  }
+
+  ShellSystem::Vector
+  ShellSystem::acceleration(const Vector    &u,
+                            const Vector    &v,
+                            const double     damping,
+                            const MassTerms &mass)
+  {
+    Vector force = owned_vector(), damping_force = owned_vector();
+    shell_operator_.residual(with_ghosts(u), force);
+    mass.vmult(damping_force, with_ghosts(v));
+    force.sadd(-1., -damping, damping_force);
+
+    AffineConstraints<double> homogeneous(constraints());
+    for (const auto &line : constraints().get_lines())
+      homogeneous.set_inhomogeneity(line.index, 0.);
+    Vector right_hand_side = owned_vector(), a = owned_vector();
+    mass.assemble_system(homogeneous,
+                         with_ghosts(force),
+                         matrix_,
+                         right_hand_side);
+    solver_.factorize(matrix_);
+    solver_.solve(a, right_hand_side);
+    homogeneous.distribute(a);
+    return a;
+  }
+
+  double
+  ShellSystem::stiffness_to_mass(const Vector &u, const MassTerms &mass)
+  {
+    Vector unused = owned_vector();
+    shell_operator_.assemble(with_ghosts(u), constraints(), matrix_, unused);
+    double trace = 0.;
+    for (const auto i : discretization_.locally_owned_dofs())
+      trace += matrix_.diag_element(i);
+    return Utilities::MPI::sum(trace, discretization_.communicator()) /
+           mass.trace();
+  }
+
+  ShellSystem::Vector
+  ShellSystem::interpolate(const VectorExpression &function) const
+  {
+    Vector      values    = owned_vector();
+    const auto &node_dofs = discretization_.node_dofs();
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    run_on_all_ranks(discretization_.communicator(), [&]() {
+      for (const auto &cell :
+           discretization_.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            cell->get_dof_indices(dofs);
+            const auto nodes = discretization_.node_positions(cell);
+            for (unsigned int a = 0; a < nodes.size(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const auto i = dofs[node_dofs[spacedim * a + c]];
+                  if (discretization_.locally_owned_dofs().is_element(i))
+                    values(i) = function(nodes[a])[c];
+                }
+          }
+    });
+    values.compress(VectorOperation::insert);
+    discretization_.hanging_node_constraints().distribute(values);
+    return values;
+  }
+
+  ShellSystem::Vector
+  ShellSystem::owned_vector() const
+  {
+    return Vector(discretization_.locally_owned_dofs(),
+                  discretization_.communicator());
+  }
+
+  ShellSystem::Vector
+  ShellSystem::with_ghosts(const Vector &owned) const
+  {
+    Vector ghosted(discretization_.locally_owned_dofs(),
+                   discretization_.locally_relevant_dofs(),
+                   discretization_.communicator());
+    ghosted = owned;
+    return ghosted;
+  }
+
+  AffineConstraints<double>
+  ShellSystem::increment_constraints(const Vector &ghosted_end,
+                                     const double  share) const
+  {
+    AffineConstraints<double> result(constraints());
+    for (const auto &line : constraints().get_lines())
+      {
+        double gap = line.inhomogeneity - ghosted_end(line.index);
+        for (const auto &[dof, weight] : line.entries)
+          gap += weight * ghosted_end(dof);
+        result.set_inhomogeneity(line.index, share * gap);
+      }
+    return result;
+  }
+
+  NewtonSolver::Step
+  ShellSystem::solve_linearised(const Vector  &u,
+                                const Vector  &end,
+                                Vector        &du,
+                                const Inertia *inertia,
+                                const double   share)
+  {
+    const Vector ghosted     = with_ghosts(u);
+    const auto   constraints = increment_constraints(with_ghosts(end), share);
+    Vector       right_hand_side = owned_vector();
+    energies_                    = shell_operator_.assemble(ghosted,
+                                         constraints,
+                                         matrix_,
+                                         right_hand_side,
+                                         inertia);
+    solver_.factorize(matrix_);
+    du = 0.;
+    solver_.solve(du, right_hand_side);
+
+    NewtonSolver::Step step;
+    step.n_negative_pivots = solver_.n_negative_pivots();
+    // Rows of constrained dofs hold the prescribed increments.
+    for (const auto &line : constraints.get_lines())
+      if (discretization_.locally_owned_dofs().is_element(line.index))
+        right_hand_side(line.index) = 0.;
+    right_hand_side.compress(VectorOperation::insert);
+    step.residual = right_hand_side.l2_norm();
+    step.work     = right_hand_side * du;
+    constraints.distribute(du);
+    return step;
+  }
+
+  double
+  ShellSystem::work(const Vector  &u,
+                    const Vector  &du,
+                    const Inertia *inertia) const
+  {
+    // du fulfils the homogeneous constraints up to what is still prescribed:
+    // the free part of r . du is that of the condensed residual.
+    Vector residual = owned_vector();
+    shell_operator_.residual(with_ghosts(u), residual, inertia);
+    Vector free(du);
+    for (const auto &line : constraints().get_lines())
+      if (line.entries.empty() &&
+          discretization_.locally_owned_dofs().is_element(line.index))
+        free(line.index) = 0.;
+    free.compress(VectorOperation::insert);
+    return -(residual * free);
+  }
+} // namespace Nacre

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/discretization/shape_table.h>
+#include <nacre/forms/mass_terms.h>
+
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <sstream>
+
+namespace Nacre
+{
+  MassTerms::MassTerms(const Discretization &discretization,
+                       const SectionLaw     &section)
+    : discretization_(discretization)
+  {
+    make_matrices([&](const Point<spacedim> &x) {
+      const double       rho = section.density(x);
+      std::ostringstream message;
+      message << "Section/Density: " << rho << " at the point (" << x
+              << "); an analysis with inertia needs a positive one.";
+      AssertThrow(rho > 0., ExcMessage(message.str()));
+      return rho * section.thickness(x);
+    });
+  }
+
+  MassTerms::MassTerms(const Discretization &discretization)
+    : discretization_(discretization)
+  {
+    make_matrices([](const Point<spacedim> &) { return 1.; });
+  }
+
+  void
+  MassTerms::make_matrices(
+    const std::function<double(const Point<spacedim> &)> &area_density)
+  {
+    cell_matrices_.resize(discretization_.triangulation().n_active_cells());
+    const auto rule = discretization_.element().full_quadrature();
+    const FE_Nothing<dim, spacedim> fe_nothing(
+      discretization_.element().reference_cell());
+    FEValues<dim, spacedim> fe_values(discretization_.mapping(),
+                                      fe_nothing,
+                                      rule,
+                                      update_JxW_values |
+                                        update_quadrature_points);
+    const ShapeTable shapes(discretization_.scalar_fe(), rule.get_points());
+    const auto       n = shapes.n_nodes();
+
+    run_on_all_ranks(discretization_.communicator(), [&]() {
+      for (const auto &cell :
+           discretization_.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            fe_values.reinit(cell);
+            auto &M = cell_matrices_[cell->active_cell_index()];
+            M.reinit(n, n);
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                const double dm = area_density(fe_values.quadrature_point(q)) *
+                                  fe_values.JxW(q);
+                total_ += dm;
+                for (unsigned int a = 0; a < n; ++a)
+                  for (unsigned int b = 0; b < n; ++b)
+                    M(a, b) += dm * shapes.value(q, a) * shapes.value(q, b);
+              }
+          }
+    });
+    total_ = Utilities::MPI::sum(total_, discretization_.communicator());
+  }
+
+  double
+  MassTerms::trace() const
+  {
+    double sum = 0.;
+    for (const auto &M : cell_matrices_)
+      for (unsigned int a = 0; a < M.m(); ++a)
+        sum += spacedim * M(a, a);
+    return Utilities::MPI::sum(sum, discretization_.communicator());
+  }
+
+  void
+  MassTerms::vmult(Vector &result, const Vector &v) const
+  {
+    result                = 0.;
+    const auto &node_dofs = discretization_.node_dofs();
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    dealii::Vector<double>               local(node_dofs.size());
+    for (const auto &cell :
+         discretization_.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          local = 0.;
+          Inertia{*this, v, 0.}.add(cell, dofs, node_dofs, local, nullptr);
+          result.add(dofs, std::vector<double>(local.begin(), local.end()));
+        }
+    result.compress(VectorOperation::add);
+  }
+
+  void
+  MassTerms::assemble_system(const AffineConstraints<double> &constraints,
+                             const Vector                    &ghosted_b,
+                             TrilinosWrappers::SparseMatrix  &matrix,
+                             Vector &right_hand_side) const
+  {
+    matrix                = 0.;
+    right_hand_side       = 0.;
+    const auto &node_dofs = discretization_.node_dofs();
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    FullMatrix<double>     local(node_dofs.size(), node_dofs.size());
+    dealii::Vector<double> unused(node_dofs.size());
+    for (const auto &cell :
+         discretization_.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          local = 0.;
+          Inertia{*this, ghosted_b, 1.}.add(cell,
+                                            dofs,
+                                            node_dofs,
+                                            unused,
+                                            &local);
+          constraints.distribute_local_to_global(local, dofs, matrix);
+        }
+    matrix.compress(VectorOperation::add);
+    // b is a sum over nodes already: each rank adds what it owns.
+    dealii::Vector<double> entry(1);
+    for (const auto i : discretization_.locally_owned_dofs())
+      {
+        entry[0] = ghosted_b(i);
+        constraints.distribute_local_to_global(
+          entry,
+          std::vector<types::global_dof_index>{i},
+          right_hand_side);
+      }
+    right_hand_side.compress(VectorOperation::add);
+  }
+
+  void
+  Inertia::add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+               const std::vector<types::global_dof_index>            &dofs,
+               const std::vector<unsigned int>                       &node_dofs,
+               dealii::Vector<double>                                &residual,
+               FullMatrix<double> *tangent) const
+  {
+    const auto &M = mass.cell_matrix(cell);
+    for (unsigned int a = 0; a < M.m(); ++a)
+      for (unsigned int b = 0; b < M.n(); ++b)
+        for (unsigned int c = 0; c < spacedim; ++c)
+          {
+            const unsigned int i = node_dofs[spacedim * a + c];
+            const unsigned int j = node_dofs[spacedim * b + c];
+            residual[i] += M(a, b) * w(dofs[j]);
+            if (tangent != nullptr)
+              (*tangent)(i, j) += factor * M(a, b);
+          }
+  }
+} // namespace Nacre
