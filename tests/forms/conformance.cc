@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// The records of conformance/*.json, written by an independent program, for
-// 9-node cells: frames, strains, matrices, forces and energies of cells and
-// of an edge.
+// The records of conformance/*.json, written by an independent program: frames,
+// strains, matrices, forces and energies of 8-node, 9-node and triangular
+// cells and of an edge.
 
-#include "records.h"
+#include "record_meshes.h"
 #include <nacre/forms/linear_kinematics.h>
 #include <nacre/mechanics/shell_strain.h>
 
-#include <deal.II/base/quadrature_lib.h>
+#include <numeric>
 
 /** A section of which only one stiffness counts. */
 class PartialSection : public SectionLaw
@@ -57,71 +57,6 @@ private:
   const SectionLaw &section_;
   const double      membrane_;
 };
-
-/** Node order of the records: corners, mid-sides, centre of [-1, 1]^2. */
-const std::array<Point<2>, 9> record_nodes = {{{-1., -1.},
-                                               {1., -1.},
-                                               {1., 1.},
-                                               {-1., 1.},
-                                               {0., -1.},
-                                               {1., 0.},
-                                               {0., 1.},
-                                               {-1., 0.},
-                                               {0., 0.}}};
-
-unsigned int
-record_node(const Point<2> &unit)
-{
-  for (unsigned int k = 0; k < record_nodes.size(); ++k)
-    if ((2. * unit - Point<2>(1., 1.) - record_nodes[k]).norm() < 1e-12)
-      return k;
-  AssertThrow(false, ExcInternalError());
-  return 0;
-}
-
-/** A mesh of the record's nodes with the 9 nodes of each of its cells. */
-std::unique_ptr<Discretization>
-make_discretization(const std::vector<double>                    &nodes,
-                    const std::vector<std::vector<unsigned int>> &cells)
-{
-  const auto node = [&](const unsigned int k) {
-    return Point<3>(nodes[3 * k], nodes[3 * k + 1], nodes[3 * k + 2]);
-  };
-  Mesh                                 mesh;
-  std::map<unsigned int, unsigned int> vertices;
-  for (const auto &cell : cells)
-    {
-      std::array<unsigned int, 4> corners;
-      for (const unsigned int v : {0, 1, 2, 3})
-        {
-          // deal.II counts corners in lexicographic order.
-          const unsigned int k = cell[std::array<int, 4>{{0, 1, 3, 2}}[v]];
-          if (vertices.emplace(k, mesh.vertices.size()).second)
-            mesh.vertices.push_back(node(k));
-          corners[v] = vertices[k];
-        }
-      mesh.cells.push_back(corners);
-    }
-  return std::make_unique<Discretization>(
-    make_triangulation(mesh),
-    [&](const auto &cell, const Point<2> &unit) {
-      return node(cells[cell->index()][record_node(unit)]);
-    },
-    Element{ElementType::lagrange, 2},
-    0);
-}
-
-/** Local dof of the record's dof 3 k + c, k counted within the cell. */
-std::vector<unsigned int>
-record_dofs(const Discretization &discretization)
-{
-  std::vector<unsigned int> dofs(27);
-  for (unsigned int a = 0; a < 9; ++a)
-    for (unsigned int c = 0; c < 3; ++c)
-      dofs[3 * record_node(discretization.scalar_fe().unit_support_point(a)) +
-           c] = discretization.node_dofs()[3 * a + c];
-  return dofs;
-}
 
 std::vector<double>
 upper_triangle(const FullMatrix<double>        &matrix,
@@ -200,9 +135,9 @@ parameters_of(const Json &record)
                                  record.get<double>("h")));
 }
 
-/** Our reference cell is half as long: derivatives are twice as large. */
 void
 test_frame(const std::string      &name,
+           const double            scale,
            const Json             &sample,
            const SurfaceFrame<>   &frame,
            const Point<3>         &point,
@@ -215,22 +150,23 @@ test_frame(const std::string      &name,
               numbers_of(sample, key));
     };
   check_vector("x", Vector3(point), 1.);
-  check_vector("phi_1", frame.a_cov[0], 0.5);
-  check_vector("phi_2", frame.a_cov[1], 0.5);
-  check_vector("phi_11", frame.a_cov_derivatives[0], 0.25);
-  check_vector("phi_22", frame.a_cov_derivatives[1], 0.25);
-  check_vector("phi_12", frame.a_cov_derivatives[2], 0.25);
-  check_vector("phi_up_1", frame.a_con[0], 2.);
-  check_vector("phi_up_2", frame.a_con[1], 2.);
+  check_vector("phi_1", frame.a_cov[0], scale);
+  check_vector("phi_2", frame.a_cov[1], scale);
+  check_vector("phi_11", frame.a_cov_derivatives[0], scale * scale);
+  check_vector("phi_22", frame.a_cov_derivatives[1], scale * scale);
+  check_vector("phi_12", frame.a_cov_derivatives[2], scale * scale);
+  check_vector("phi_up_1", frame.a_con[0], 1. / scale);
+  check_vector("phi_up_2", frame.a_con[1], 1. / scale);
   check_vector("t0", frame.t0, 1.);
-  compare(name + "j0", {0.25 * frame.j0}, numbers_of(sample, "j0"));
+  compare(name + "j0", {scale * scale * frame.j0}, numbers_of(sample, "j0"));
 
   std::vector<double> H_n, H_m;
+  const double        to_record = 1. / std::pow(scale, 4);
   for (unsigned int v = 0; v < 3; ++v)
     for (unsigned int w = 0; w < 3; ++w)
       {
-        H_n.push_back(16. * stiffness.membrane[v][w]);
-        H_m.push_back(16. * stiffness.bending[v][w]);
+        H_n.push_back(to_record * stiffness.membrane[v][w]);
+        H_m.push_back(to_record * stiffness.bending[v][w]);
       }
   compare(name + "Hn_voigt", H_n, numbers_of(sample, "Hn_voigt"));
   compare(name + "Hm_voigt", H_m, numbers_of(sample, "Hm_voigt"));
@@ -240,19 +176,22 @@ test_frame(const std::string      &name,
 void
 test_rows(const std::string               &name,
           const Json                      &sample,
+          const RecordType                &type,
           const Discretization            &discretization,
           const ShellCellValues           &values,
           const unsigned int               q,
           const std::vector<unsigned int> &dofs)
 {
-  std::vector<double> B_n, B_m, Dt(81);
+  const unsigned int  n     = dofs.size();
+  const double        scale = type.scale * type.scale;
+  std::vector<double> B_n, B_m, Dt(3 * n);
   for (unsigned int v = 0; v < 3; ++v)
     for (const unsigned int i : dofs)
       {
-        B_n.push_back(0.25 * values.membrane_rows()(3 * q + v, i));
-        B_m.push_back(0.25 * values.bending_rows()(3 * q + v, i));
+        B_n.push_back(scale * values.membrane_rows()(3 * q + v, i));
+        B_m.push_back(scale * values.bending_rows()(3 * q + v, i));
       }
-  for (unsigned int a = 0; a < 9; ++a)
+  for (unsigned int a = 0; a < n / 3; ++a)
     for (unsigned int c = 0; c < 3; ++c)
       {
         Vector3 e;
@@ -261,9 +200,9 @@ test_rows(const std::string               &name,
         const auto  row =
           ShellStrain::normal_change(values.frame(q), {{dN[0] * e, dN[1] * e}});
         const auto k =
-          record_node(discretization.scalar_fe().unit_support_point(a));
+          type.node(discretization.scalar_fe().unit_support_point(a));
         for (unsigned int r = 0; r < 3; ++r)
-          Dt[27 * r + 3 * k + c] = row[r];
+          Dt[n * r + 3 * k + c] = row[r];
       }
   compare(name + "Bn", B_n, numbers_of(sample, "Bn"));
   compare(name + "Bm", B_m, numbers_of(sample, "Bm"));
@@ -272,6 +211,7 @@ test_rows(const std::string               &name,
 
 void
 test_samples(const Json                      &record,
+             const RecordType                &type,
              const Discretization            &discretization,
              const SectionLaw                &section,
              const std::vector<unsigned int> &dofs)
@@ -280,7 +220,7 @@ test_samples(const Json                      &record,
   for (const auto &sample : record.get_child("samples"))
     {
       const auto xi = numbers_of(sample.second, "xi");
-      points.emplace_back(0.5 * (xi[0] + 1.), 0.5 * (xi[1] + 1.));
+      points.push_back(type.unit_point({xi[0], xi[1]}));
     }
   ShellCellValues values(discretization,
                          Quadrature<2>(points,
@@ -294,12 +234,13 @@ test_samples(const Json                      &record,
       const auto name = record.get<std::string>("name") + ", sample " +
                         std::to_string(q) + ": ";
       test_frame(name,
+                 type.scale,
                  sample.second,
                  values.frame(q),
                  values.point(q),
                  section.stiffness(values.frame(q), values.point(q)));
       if (sample.second.count("Bn") == 1)
-        test_rows(name, sample.second, discretization, values, q, dofs);
+        test_rows(name, sample.second, type, discretization, values, q, dofs);
       ++q;
     }
 }
@@ -309,7 +250,7 @@ void
 test_space_hessian(const std::string    &name,
                    const Discretization &discretization)
 {
-  const QGauss<2> quadrature(3);
+  const auto      quadrature = discretization.element().full_quadrature();
   ShellCellValues values(discretization, quadrature, false);
   values.reinit(discretization.triangulation().begin_active());
   FEValues<2, 3> fe_values(discretization.mapping(),
@@ -320,7 +261,7 @@ test_space_hessian(const std::string    &name,
     discretization.triangulation().begin_active()));
   double error = 0., size = 0.;
   for (unsigned int q = 0; q < quadrature.size(); ++q)
-    for (unsigned int a = 0; a < 9; ++a)
+    for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
       for (unsigned int c = 0; c < 3; ++c)
         for (unsigned int v = 0; v < 3; ++v)
           {
@@ -345,22 +286,30 @@ test_element(const Json &record)
   const auto parameters = parameters_of(record);
   const auto nodes      = numbers_of(record, "nodes");
 
-  const auto discretization =
-    make_discretization(nodes, {{0, 1, 2, 3, 4, 5, 6, 7, 8}});
-  const auto dofs = record_dofs(*discretization);
-  const auto cell = discretization->triangulation().begin_active();
-  test_samples(record, *discretization, parameters.section, dofs);
+  const RecordType          type(record);
+  std::vector<unsigned int> all_nodes(nodes.size() / 3);
+  std::iota(all_nodes.begin(), all_nodes.end(), 0);
+  const auto discretization = make_discretization(type, nodes, {all_nodes});
+  const auto dofs           = record_dofs(type, *discretization);
+  const auto cell           = discretization->triangulation().begin_active();
+  test_samples(record, type, *discretization, parameters.section, dofs);
   test_space_hessian(name, *discretization);
 
+  // The record's rule is the full or the reduced one of our element.
+  const auto n_points = numbers_of(record, "quad.weights").size();
+  const bool is_full  = (n_points == type.element.full_quadrature().size());
+  AssertThrow(is_full || n_points == type.element.reduced_quadrature().size(),
+              ExcInternalError());
   for (const std::string part : {"membrane", "bending"})
     {
       const PartialSection section(parameters.section,
                                    part == "membrane" ? 1. : 0.);
       LinearKinematics     kinematics(*discretization,
                                   section,
-                                  MembraneStrain::full);
+                                  is_full ? MembraneStrain::full :
+                                                MembraneStrain::reduced);
       LocalTerms           terms;
-      terms.reinit(27);
+      terms.reinit(dofs.size());
       kinematics.add_cell_terms(cell, Vector<double>(), terms);
       compare(name + ": K_" + part,
               upper_triangle(terms.tangent, dofs),
@@ -371,7 +320,7 @@ test_element(const Json &record)
         {
           const auto field_name = field.second.get<std::string>("name");
           const auto where      = name + ", field " + field_name + ": ";
-          terms.reinit(27);
+          terms.reinit(dofs.size());
           kinematics.add_cell_terms(cell,
                                     field_vector(field_name, nodes, dofs),
                                     terms);
@@ -396,8 +345,10 @@ test_element(const Json &record)
 struct RecordEdge
 {
   explicit RecordEdge(const Json &record)
-    : cells(cells_of(record))
-    , discretization(make_discretization(numbers_of(record, "nodes"), cells))
+    : type(record)
+    , cells(cells_of(record))
+    , discretization(
+        make_discretization(type, numbers_of(record, "nodes"), cells))
     , minus(cell(record.get<int>("K_minus")))
     , plus(cell(record.get<int>("K_plus")))
     , edge(*discretization)
@@ -418,7 +369,7 @@ struct RecordEdge
       for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
         for (unsigned int c = 0; c < 3; ++c)
           dofs[3 * cells[(side == 0 ? minus : plus)->index()]
-                        [record_node(fe.unit_support_point(a))] +
+                        [type.node(fe.unit_support_point(a))] +
                c] = edge.dof(side, a, c);
   }
 
@@ -446,6 +397,7 @@ struct RecordEdge
     return discretization->dof_handler().begin_active();
   }
 
+  const RecordType                             type;
   const std::vector<std::vector<unsigned int>> cells;
   const std::unique_ptr<Discretization>        discretization;
   const ShellEdgeValues::cell_iterator         minus;

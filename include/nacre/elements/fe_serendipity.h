@@ -39,6 +39,10 @@ namespace Nacre
    * As for FE_Q: support points, isotropic refinement, any FiniteElement
    * machinery, products by FESystem. Elements of other kinds can be
    * interpolated from, not neighboured (no hp).
+   *
+   * Geometry in this space: a MappingQCache of degree 2 with a field of
+   * positions of FESystem(FE_Serendipity(2), 3) is exact, since FE_Q(2)'s space
+   * contains this one. (deal.II 9.4's MappingFE lacks JxW on halves of edges.)
    */
   class FE_Serendipity : public FE_Poly<dim, spacedim>
   {
