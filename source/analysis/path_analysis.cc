@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
 #include <sstream>
@@ -48,7 +49,7 @@ namespace Nacre
     return state;
   }
 
-  void
+  std::string
   PathAnalysis::run(PathState       &state,
                     const Observer  &observer,
                     const Messenger &messenger)
@@ -80,14 +81,14 @@ namespace Nacre
           {
             state.next_step    = 0.5 * dt;
             state.n_good_steps = 0;
-            AssertThrow(
-              state.next_step >= parameters_.minimum_time_step,
-              ExcMessage(
-                text.str() +
-                ". The last good state, at t = " + std::to_string(state.time) +
-                ", is kept. Try a smaller 'Analysis/Minimum time step', or "
-                "'Type = relaxation' or 'dynamic' if the path has a limit or "
-                "a bifurcation point there."));
+            if (state.next_step < parameters_.minimum_time_step)
+              {
+                text << ". The last good state, at t = " << state.time
+                     << ", is kept. Try a smaller 'Analysis/Minimum time "
+                        "step', or 'Type = relaxation' or 'dynamic' if the "
+                        "path has a limit or bifurcation point there.";
+                return text.str();
+              }
             messenger(text.str() + "; trying half the step");
             continue;
           }
@@ -101,6 +102,7 @@ namespace Nacre
         adapt_step(state, attempt);
         observer(state);
       }
+    return "";
   }
 
   void

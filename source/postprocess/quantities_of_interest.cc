@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
+#include <nacre/forms/mass_terms.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/quantities_of_interest.h>
@@ -219,6 +220,77 @@ namespace Nacre
       };
     }
 
+    /** M v of the ghosted velocity; zero in statics. */
+    TrilinosWrappers::MPI::Vector
+    momentum_vector(const SolvedShell &shell)
+    {
+      TrilinosWrappers::MPI::Vector Mv(
+        shell.discretization.locally_owned_dofs(),
+        shell.discretization.communicator());
+      if (shell.mass != nullptr)
+        shell.mass->vmult(Mv, *shell.velocity);
+      return Mv;
+    }
+
+    /** 1/2 v . M v */
+    double
+    kinetic_energy(const SolvedShell &shell)
+    {
+      if (shell.mass == nullptr)
+        return 0.;
+      const auto Mv  = momentum_vector(shell);
+      double     sum = 0.;
+      for (const auto i : shell.discretization.locally_owned_dofs())
+        sum += 0.5 * (*shell.velocity)(i)*Mv(i);
+      return Utilities::MPI::sum(sum, shell.discretization.communicator());
+    }
+
+    double
+    total_energy(const SolvedShell &shell)
+    {
+      return shell.energies.total() + kinetic_energy(shell);
+    }
+
+    /**
+     * The components c of the momentum, sum of M v over the nodes, or of its
+     * moment about the origin, sum of (X + u) x M v.
+     */
+    Evaluate
+    momentum(const unsigned int c, const bool angular)
+    {
+      return [=](const SolvedShell &shell) {
+        const auto &discretization = shell.discretization;
+        const auto &node_dofs      = discretization.node_dofs();
+        const auto  Mv             = momentum_vector(shell);
+        std::vector<types::global_dof_index> dofs(node_dofs.size());
+        std::set<types::global_dof_index>    visited;
+        Vector3                              sum;
+        for (const auto &cell :
+             discretization.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              cell->get_dof_indices(dofs);
+              const auto nodes = discretization.node_positions(cell);
+              for (unsigned int a = 0; a < nodes.size(); ++a)
+                {
+                  const auto first = dofs[node_dofs[spacedim * a]];
+                  if (!discretization.locally_owned_dofs().is_element(first) ||
+                      !visited.insert(first).second)
+                    continue;
+                  Vector3 x(nodes[a]), p;
+                  for (unsigned int d = 0; d < spacedim; ++d)
+                    {
+                      const auto i = dofs[node_dofs[spacedim * a + d]];
+                      x[d] += shell.displacement(i);
+                      p[d] = Mv(i);
+                    }
+                  sum += angular ? cross_product_3d(x, p) : p;
+                }
+            }
+        return Utilities::MPI::sum(sum, discretization.communicator())[c];
+      };
+    }
+
     /** A kind without arguments. */
     struct SimpleKind
     {
@@ -236,6 +308,14 @@ namespace Nacre
         {"membrane energy", of_energies(&Energies::membrane), false},
         {"bending energy", of_energies(&Energies::bending), false},
         {"edge energy", of_energies(&Energies::edge), false},
+        {"kinetic energy", kinetic_energy, false},
+        {"total energy", total_energy, false},
+        {"momentum x", momentum(0, false), false},
+        {"momentum y", momentum(1, false), false},
+        {"momentum z", momentum(2, false), false},
+        {"angular momentum x", momentum(0, true), false},
+        {"angular momentum y", momentum(1, true), false},
+        {"angular momentum z", momentum(2, true), false},
         {"L2 error", error_norm(&ErrorNorms::L2), true},
         {"H1 error", error_norm(&ErrorNorms::H1), true},
         {"energy error", error_norm(&ErrorNorms::energy), true}};
@@ -363,7 +443,9 @@ namespace Nacre
       "x|y|z|normal|(a, b, c) at (point); maximum displacement; energy; "
       "membrane energy; bending energy; edge energy; reaction x|y|z of EDGE; "
       "moment x|y|z of EDGE [about (point)]; L2 error; H1 error; energy "
-      "error. Units: those of the quantity.");
+      "error; in dynamics kinetic energy, total energy, momentum x|y|z, "
+      "angular momentum x|y|z about the origin. Units: those of the "
+      "quantity.");
   }
 
   std::vector<std::string>

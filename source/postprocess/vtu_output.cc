@@ -217,6 +217,16 @@ namespace Nacre
       Vector<double>                       membrane_strains_;
       Vector<double>                       bending_strains_;
     };
+
+    /** The file that holds or lists all cells. */
+    std::string
+    record_name(const std::string &name,
+                const unsigned int counter,
+                const unsigned int n_ranks)
+    {
+      return name + "_" + std::to_string(counter) +
+             (n_ranks == 1 ? ".vtu" : ".pvtu");
+    }
   } // namespace
 
 
@@ -316,13 +326,27 @@ namespace Nacre
 
 
   void
+  VtuOutput::resume(const std::string                    &folder,
+                    const std::string                    &name,
+                    const std::map<unsigned int, double> &written,
+                    const unsigned int                    n_ranks)
+  {
+    const std::string pvd =
+      (std::filesystem::path(folder) / (name + ".pvd")).string();
+    for (const auto &[counter, time] : written)
+      records_[pvd][counter] = {time, record_name(name, counter, n_ranks)};
+  }
+
+
+  void
   VtuOutput::write(const Discretization                &discretization,
                    const SectionLaw                    &section,
                    const MembraneStrain                 membrane_strain,
                    const TrilinosWrappers::MPI::Vector &ghosted_displacement,
                    const std::string                   &folder,
                    const std::string                   &name,
-                   const unsigned int                   counter)
+                   const unsigned int                   counter,
+                   const double                         time)
   {
     const MPI_Comm communicator = discretization.communicator();
     run_on_root(communicator, [&] { create_folder(folder); });
@@ -350,7 +374,7 @@ namespace Nacre
                    [&](std::ostream &out) { shell_fields->write_vtu(out); });
     });
 
-    const std::string record = n_ranks == 1 ? piece(0) : base + ".pvtu";
+    const std::string record = record_name(name, counter, n_ranks);
     run_on_root(communicator, [&] {
       std::vector<std::string> pieces;
       for (unsigned int rank = 0; rank < n_ranks; ++rank)
@@ -362,10 +386,10 @@ namespace Nacre
         });
 
       const std::string pvd  = (path / (name + ".pvd")).string();
-      records_[pvd][counter] = record;
-      const std::vector<std::pair<double, std::string>> times(
-        records_[pvd].begin(),
-        records_[pvd].end());
+      records_[pvd][counter] = {time, record};
+      std::vector<std::pair<double, std::string>> times;
+      for (const auto &entry : records_[pvd])
+        times.push_back(entry.second);
       write_file(pvd, [&](std::ostream &out) {
         DataOutBase::write_pvd_record(out, times);
       });

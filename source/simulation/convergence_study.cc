@@ -8,7 +8,9 @@
 #include <nacre/base/text.h>
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
+#include <nacre/simulation/checkpoint.h>
 #include <nacre/simulation/convergence_study.h>
+#include <nacre/simulation/path_monitor.h>
 
 #include <cmath>
 #include <filesystem>
@@ -220,8 +222,61 @@ namespace Nacre
   }
 
   void
-  ConvergenceStudy::run(Log &log)
+  ConvergenceStudy::follow_path(const std::string &name,
+                                const bool         restart,
+                                Log               &log)
   {
+    CheckpointData data;
+    data.state = problem_.start_path(log);
+
+    const auto        &path  = problem_.path_parameters();
+    const auto        &shell = problem_.discretization();
+    std::ostringstream problem;
+    problem << problem_.element_name() << " cells of degree " << shell.degree()
+            << ", " << shell.dof_handler().n_dofs() << " dofs";
+    const std::string base =
+      (std::filesystem::path(output_folder_) / name).string();
+    Checkpoint  checkpoint(communicator_, base, problem.str());
+    PathMonitor monitor(communicator_,
+                        {output_folder_,
+                         name,
+                         write_vtu_,
+                         report_seconds_,
+                         path.vtu_steps,
+                         path.checkpoint_steps,
+                         path.end_time},
+                        quantities_,
+                        checkpoint,
+                        log);
+    if (restart)
+      {
+        checkpoint.load(data);
+        monitor.resume(data);
+        log.progress() << "restart from step " << data.state.step
+                       << ", t = " << data.state.time << std::endl;
+      }
+    else
+      run_on_root(communicator_, [&]() { checkpoint.remove(); });
+
+    const std::string failure = problem_.follow_path(
+      data.state,
+      [&](const PathState &state, const SolvedShell &solved) {
+        monitor.observe(state, solved);
+      },
+      log);
+    monitor.finish(data.state, problem_.solution());
+    AssertThrow(failure.empty(), ExcMessage(failure));
+  }
+
+  void
+  ConvergenceStudy::run(Log &log, const bool restart)
+  {
+    const auto cases = make_cases();
+    AssertThrow(!restart || (cases.size() == 1 && !problem_.is_linear()),
+                ExcMessage("--restart: only a study of one case with an "
+                           "'Analysis/Type' other than linear can go on; this "
+                           "one has " +
+                           std::to_string(cases.size()) + "."));
     prepare_output();
     std::vector<ResultsTable::Quantity> columns;
     for (const auto &quantity : quantities_.quantities())
@@ -231,11 +286,16 @@ namespace Nacre
     ResultsTable table(heading_.title, columns);
     VtuOutput    vtu_output;
 
-    const auto cases = make_cases();
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
         prepare_case(cases[k]);
-        problem_.solve(log);
+        if (problem_.is_linear())
+          problem_.solve(log);
+        else
+          follow_path(cases.size() == 1 ? name_ :
+                                          name_ + "_" + std::to_string(k),
+                      restart,
+                      log);
         const auto row = make_row(cases[k]);
         table.add_row(row);
         log.progress() << '[' << k + 1 << '/' << cases.size() << "] "
@@ -243,7 +303,7 @@ namespace Nacre
 
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
         const SolvedShell &shell = problem_.solution();
-        if (write_vtu_)
+        if (write_vtu_ && problem_.is_linear())
           vtu_output.write(shell.discretization,
                            shell.section,
                            shell.membrane_strain,

@@ -38,6 +38,8 @@ namespace
     description.add_options()("list",
                               "list elements, membrane strains, surfaces, "
                               "conditions, loads and quantities");
+    description.add_options()("restart",
+                              "go on from the last checkpoint of a path");
     description.add_options()("quiet", "no lines of progress");
     description.add_options()("help", "print this");
     description.add_options()("version", "print the version");
@@ -106,6 +108,8 @@ namespace
   {
     for (const char *const parameter : {"Discretization/Element",
                                         "Discretization/Membrane strain",
+                                        "Analysis/Type",
+                                        "Analysis/Scheme",
                                         "Mid-surface/Surface",
                                         "Boundary conditions/Edges",
                                         "Boundary conditions/Points",
@@ -184,7 +188,7 @@ namespace
         return success;
       }
     Nacre::Log log(communicator, values->count("quiet") > 0);
-    study.run(log);
+    study.run(log, values->count("restart") > 0);
     return success;
   }
 } // namespace

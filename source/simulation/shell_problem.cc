@@ -90,6 +90,16 @@ namespace Nacre
     boundary_conditions_.prepare(midsurface_, constants_);
     loads_.prepare(midsurface_, constants_);
     exact_solution_.prepare(constants_);
+    path_parameters_.prepare(constants_);
+    if (is_linear())
+      {
+        AssertThrow(!loads_.pressure_follows(),
+                    ExcMessage("Loads/Pressure follows: a linear analysis "
+                               "knows the undeformed surface only; choose "
+                               "another 'Analysis/Type'."));
+        loads_.set_time(0., 1.);
+        boundary_conditions_.set_time(0., 1.);
+      }
   }
 
   void
@@ -154,10 +164,12 @@ namespace Nacre
   }
 
   void
-  ShellProblem::solve(Log &log)
+  ShellProblem::set_up(Log &log)
   {
     times_ = SolveTimes();
     solution_.reset();
+    path_.reset();
+    system_.reset();
     operator_.reset();
     discretization_.reset();
 
@@ -167,18 +179,8 @@ namespace Nacre
                                                        element(),
                                                        mapping_degree_,
                                                        case_.n_refinements);
-    const DisplacementConditions conditions(*discretization_,
-                                            boundary_conditions_);
-    const auto                   motions = conditions.free_rigid_motions();
-    if (!motions.empty())
-      {
-        std::string text = "Boundary conditions: the shell can move freely:";
-        for (const auto &motion : motions)
-          text += (&motion == &motions.front() ? " " : "; ") + motion;
-        AssertThrow(false,
-                    ExcMessage(text + ". Prescribe more on its edges, or at "
-                                      "points."));
-      }
+    if (path_parameters_.type != AnalysisType::dynamic)
+      check_supports();
     operator_ = std::make_unique<ShellOperator>(*discretization_,
                                                 *section_,
                                                 boundary_conditions_,
@@ -188,7 +190,30 @@ namespace Nacre
     warn_of_penalty(log);
     timer.stop();
     times_.setup = timer.cpu_time();
+  }
 
+  void
+  ShellProblem::check_supports() const
+  {
+    const DisplacementConditions conditions(*discretization_,
+                                            boundary_conditions_);
+    const auto                   motions = conditions.free_rigid_motions();
+    if (motions.empty())
+      return;
+    std::string text = "Boundary conditions: the shell can move freely:";
+    for (const auto &motion : motions)
+      text += (&motion == &motions.front() ? " " : "; ") + motion;
+    AssertThrow(false,
+                ExcMessage(text + ". Prescribe more on its edges, or at "
+                                  "points."));
+  }
+
+  void
+  ShellProblem::solve(Log &log)
+  {
+    set_up(log);
+    const DisplacementConditions conditions(*discretization_,
+                                            boundary_conditions_);
     solve_linear_system(conditions.constraints(), log);
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
@@ -202,6 +227,74 @@ namespace Nacre
                   displacement_,
                   residual_,
                   energies});
+  }
+
+  PathState
+  ShellProblem::start_path(Log &log)
+  {
+    set_up(log);
+    system_ = std::make_unique<ShellSystem>(*discretization_,
+                                            *operator_,
+                                            boundary_conditions_,
+                                            loads_,
+                                            path_parameters_.load_factor);
+    path_ =
+      std::make_unique<PathAnalysis>(path_parameters_, *system_, *section_);
+    return path_->initial_state();
+  }
+
+  std::string
+  ShellProblem::follow_path(PathState          &state,
+                            const PathObserver &observer,
+                            Log                &log)
+  {
+    Timer             timer(communicator_, true);
+    const std::string failure = path_->run(
+      state,
+      [&](const PathState &step) {
+        take_state(step);
+        observer(step, *solution_);
+      },
+      [&](const std::string &text) { log.progress() << text << std::endl; });
+    take_state(state);
+    timer.stop();
+    times_.solve = timer.cpu_time();
+    return failure;
+  }
+
+  void
+  ShellProblem::take_state(const PathState &state)
+  {
+    system_->set_time(state.time);
+    displacement_.reinit(system_->with_ghosts(state.motion.u));
+    displacement_ = state.motion.u;
+    velocity_.reinit(displacement_);
+    velocity_ = state.motion.v;
+    // Inertia is part of the reactions.
+    const MassTerms              *mass = path_->mass();
+    TrilinosWrappers::MPI::Vector w(state.motion.a);
+    w.add(path_parameters_.mass_damping, state.motion.v);
+    const auto             ghosted_w = system_->with_ghosts(w);
+    std::optional<Inertia> inertia;
+    const bool dynamic = (path_parameters_.type == AnalysisType::dynamic);
+    if (dynamic)
+      inertia.emplace(Inertia{*mass, ghosted_w, 0.});
+    residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
+    const Energies energies =
+      operator_->residual(displacement_,
+                          residual_,
+                          inertia ? &*inertia : nullptr);
+    solution_ = std::make_unique<SolvedShell>(
+      SolvedShell{*discretization_,
+                  *section_,
+                  *operator_,
+                  kinematics_options().membrane_strain,
+                  exact_solution_,
+                  displacement_,
+                  residual_,
+                  energies,
+                  dynamic ? mass : nullptr,
+                  &velocity_});
   }
 
   void

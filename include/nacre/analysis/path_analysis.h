@@ -58,11 +58,10 @@ namespace Nacre
     initial_state() const;
 
     /**
-     * Go on from @p state to the end time. If a step can't be made small
-     * enough, or a cell is turned inside out, throws ExcMessage; @p state is
-     * then the last good one.
+     * Go on from @p state to the end time. Returns "", or, if a step can't be
+     * made small enough, why; @p state is then the last good one.
      */
-    void
+    std::string
     run(PathState &state, const Observer &observer, const Messenger &messenger);
 
     /** Null in statics. */
@@ -73,15 +72,18 @@ namespace Nacre
     }
 
   private:
-    /** A step that failed says why. */
     struct Attempt
     {
       NewtonSolver::Result result;
       MotionState          motion;
     };
 
+    /** A step; what the solver throws is a reason to fail. */
     Attempt
     try_step(const PathState &state, const double dt, const bool line_search);
+
+    Attempt
+    take_step(const PathState &state, const double dt, const bool line_search);
 
     Attempt
     static_step(const PathState &state, const double dt, const bool search);
@@ -97,10 +99,6 @@ namespace Nacre
      */
     Attempt
     relax(const PathState &state);
-
-    /** Empty, or why the deformation is impossible. */
-    std::string
-    check_deformation(const Vector &before, const Vector &after) const;
 
     void
     adapt_step(PathState &state, const Attempt &attempt) const;

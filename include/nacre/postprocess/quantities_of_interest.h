@@ -19,6 +19,7 @@
 namespace Nacre
 {
   class ExactSolution;
+  class MassTerms;
   class Midsurface;
   class ShellOperator;
 
@@ -35,6 +36,11 @@ namespace Nacre
     /** K u - f (force) without constraints. */
     const TrilinosWrappers::MPI::Vector &residual;
     const Energies                       energies;
+    /** @name Motion in time: null in statics */
+    //@{
+    const MassTerms                     *mass     = nullptr;
+    const TrilinosWrappers::MPI::Vector *velocity = nullptr;
+    //@}
   };
 
   /** The quantities that a study reports, by name. */

@@ -101,11 +101,41 @@ namespace Nacre
           const TrilinosWrappers::MPI::Vector &ghosted_displacement,
           const std::string                   &folder,
           const std::string                   &name,
-          const unsigned int                   counter);
+          const unsigned int                   counter)
+    {
+      write(discretization,
+            section,
+            membrane_strain,
+            ghosted_displacement,
+            folder,
+            name,
+            counter,
+            counter);
+    }
+
+    /** The same with the @p time that the .pvd tells of. */
+    void
+    write(const Discretization                &discretization,
+          const SectionLaw                    &section,
+          const MembraneStrain                 membrane_strain,
+          const TrilinosWrappers::MPI::Vector &ghosted_displacement,
+          const std::string                   &folder,
+          const std::string                   &name,
+          const unsigned int                   counter,
+          const double                         time);
+
+    /** Go on with a .pvd of the counters and times @p written already. */
+    void
+    resume(const std::string                    &folder,
+           const std::string                    &name,
+           const std::map<unsigned int, double> &written,
+           const unsigned int                    n_ranks);
 
   private:
-    /** For each .pvd: the file of each counter. */
-    std::map<std::string, std::map<unsigned int, std::string>> records_;
+    /** For each .pvd: time and file of each counter. */
+    std::map<std::string,
+             std::map<unsigned int, std::pair<double, std::string>>>
+      records_;
   };
 } // namespace Nacre
 

@@ -41,9 +41,10 @@ namespace Nacre
     /**
      * Solve all cases; writes the table after each of them, so that nothing is
      * lost if one fails.
+     * @param restart whether to go on from the checkpoint of a path
      */
     void
-    run(Log &log);
+    run(Log &log, const bool restart = false);
 
   private:
     /** The part of the file outside all sections. */
@@ -73,6 +74,10 @@ namespace Nacre
     /** Make the folder, remove older results, write the .used.prm. */
     void
     prepare_output() const;
+
+    /** Follow the path of one case, which writes files of its own. */
+    void
+    follow_path(const std::string &name, const bool restart, Log &log);
 
     /** The row of the case just solved. */
     ResultsTable::Row

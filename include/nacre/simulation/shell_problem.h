@@ -4,6 +4,7 @@
 #ifndef nacre_simulation_shell_problem_h
 #define nacre_simulation_shell_problem_h
 
+#include <nacre/analysis/path_analysis.h>
 #include <nacre/base/types.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/mechanics/section_law.h>
@@ -56,6 +57,13 @@ namespace Nacre
     void
     prepare(const Constants &constants, const ShellCase &shell_case);
 
+    /** Whether one solve is all. */
+    bool
+    is_linear() const
+    {
+      return path_parameters_.type == AnalysisType::linear;
+    }
+
     /**
      * Set up, assemble and solve the case given to prepare(). Throws if rigid
      * motions are left free, naming them, and if the matrix isn't positive
@@ -64,7 +72,28 @@ namespace Nacre
     void
     solve(Log &log);
 
-    /** The solution of the last solve(). */
+    /** Called after each step of a path. */
+    using PathObserver =
+      std::function<void(const PathState &, const SolvedShell &)>;
+
+    /** Set up the case given to prepare(); returns the start of its path. */
+    PathState
+    start_path(Log &log);
+
+    /**
+     * Go on along the path from @p state. Returns "", or why the path ends
+     * before its end; state and solution() are then the last good ones.
+     */
+    std::string
+    follow_path(PathState &state, const PathObserver &observer, Log &log);
+
+    const PathParameters &
+    path_parameters() const
+    {
+      return path_parameters_;
+    }
+
+    /** The solution of the last solve() or step. */
     const SolvedShell &
     solution() const;
 
@@ -83,6 +112,13 @@ namespace Nacre
     element_name() const
     {
       return element_;
+    }
+
+    /** That of the last set-up. */
+    const Discretization &
+    discretization() const
+    {
+      return *discretization_;
     }
 
     const Midsurface &
@@ -111,6 +147,18 @@ namespace Nacre
     }
 
   private:
+    /** Discretization and operator; checks that the shell is held. */
+    void
+    set_up(Log &log);
+
+    /** Throws if rigid motions are left free, naming them. */
+    void
+    check_supports() const;
+
+    /** solution() from the state of a path. */
+    void
+    take_state(const PathState &state);
+
     void
     warn_of_penalty(Log &log) const;
 
@@ -132,6 +180,7 @@ namespace Nacre
     BoundaryConditions          boundary_conditions_;
     Loads                       loads_;
     ExactSolution               exact_solution_;
+    PathParameters              path_parameters_;
 
     std::string  element_              = "Lagrange";
     unsigned int mapping_degree_       = 0;
@@ -146,6 +195,9 @@ namespace Nacre
     std::unique_ptr<ShellOperator>  operator_;
     TrilinosWrappers::MPI::Vector   displacement_;
     TrilinosWrappers::MPI::Vector   residual_;
+    TrilinosWrappers::MPI::Vector   velocity_;
+    std::unique_ptr<ShellSystem>    system_;
+    std::unique_ptr<PathAnalysis>   path_;
     std::unique_ptr<SolvedShell>    solution_;
   };
 } // namespace Nacre

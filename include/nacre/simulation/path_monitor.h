@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_path_monitor_h
+#define nacre_simulation_path_monitor_h
+
+#include <nacre/analysis/path_analysis.h>
+#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/postprocess/vtu_output.h>
+#include <nacre/simulation/checkpoint.h>
+
+#include <deal.II/base/timer.h>
+
+#include <optional>
+#include <string>
+
+namespace Nacre
+{
+  class Log;
+
+  /**
+   * What is told and written of each step of a path: a line on the terminal, a
+   * row of `NAME_path.csv`, fields, checkpoints.
+   */
+  class PathMonitor
+  {
+  public:
+    struct Options
+    {
+      std::string  folder;
+      std::string  name;
+      bool         write_vtu;
+      bool         report_seconds;
+      unsigned int vtu_steps;
+      unsigned int checkpoint_steps;
+      double       end_time;
+    };
+
+    PathMonitor(const MPI_Comm              communicator,
+                const Options              &options,
+                const QuantitiesOfInterest &quantities,
+                Checkpoint                 &checkpoint,
+                Log                        &log);
+
+    /** Take up the files of the run that @p data was saved by. */
+    void
+    resume(const CheckpointData &data);
+
+    /** A step is done; collective. */
+    void
+    observe(const PathState &state, const SolvedShell &shell);
+
+    /**
+     * The run ends, well or not: write the fields and the checkpoint of the
+     * last state seen if that hasn't been done. @p shell is that state's.
+     */
+    void
+    finish(const PathState &state, const SolvedShell &shell);
+
+  private:
+    void
+    write_row(const PathState &state, const std::vector<double> &values);
+
+    void
+    print_line(const PathState &state, const std::vector<double> &values);
+
+    void
+    write_fields(const PathState &state, const SolvedShell &shell);
+
+    void
+    save(const PathState &state);
+
+    std::string
+    csv_file() const;
+
+    const MPI_Comm              communicator_;
+    const Options               options_;
+    const QuantitiesOfInterest &quantities_;
+    Checkpoint                 &checkpoint_;
+    Log                        &log_;
+    VtuOutput                   vtu_output_;
+    CheckpointData              written_;
+    bool                        has_saved_ = false;
+    Timer                       timer_;
+    /** Time t where the timer started. */
+    double start_time_ = 0.;
+  };
+} // namespace Nacre
+
+#endif
