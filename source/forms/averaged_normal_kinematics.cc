@@ -17,8 +17,7 @@ namespace Nacre
   {
     AssertDimension(edge.n_sides(), 2);
     const auto &t_minus = edge.frame(0, q).t0;
-    const auto  t_plus =
-      NACRE_MUTABLE(averaged_sigma, edge.sigma(1, q), 1.) * edge.frame(1, q).t0;
+    const auto  t_plus  = edge.sigma(1, q) * edge.frame(1, q).t0;
     if ((t_minus + t_plus).norm() < 1e-8)
       {
         std::ostringstream text;
@@ -59,8 +58,9 @@ namespace Nacre
     // with -t0 and -rho.
     const double sign =
       side == 0 ? NACRE_MUTABLE(averaged_jump_minus, -1., 1.) : 1.;
-    const auto stiffness =
-      NACRE_MUTABLE(averaged_half, 0.5, 1.) * edge.sigma(side, q) * stiffness_;
+    const double sigma = NACRE_MUTABLE(averaged_sigma, edge.sigma(side, q), 1.);
+    const auto   stiffness =
+      NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * stiffness_;
 
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       {
