@@ -79,7 +79,9 @@ struct EdgeRows
 
   SurfaceFrame<>               frame;
   std::array<VoigtMatrix<>, 2> p, P;
+  /** In the edge's basis, and in those of the cells. */
   VoigtMatrix<>                H;
+  std::array<VoigtMatrix<>, 2> H_cell;
   FullMatrix<double>           jump;
   /** The jump as the consistency terms take it. */
   FullMatrix<double> tested_jump;
@@ -101,7 +103,7 @@ add_side(const RecordPoint &point,
   const auto  N_hat = EdgeFrame::jump_matrix(rows.frame);
   rows.p[side]      = EdgeFrame::strain_transformation(frame, rows.frame);
   rows.P[side]      = EdgeFrame::strain_transformation(rows.frame, frame);
-  const auto H_cell = section.stiffness(frame, Point<3>()).bending;
+  rows.H_cell[side] = section.stiffness(frame, Point<3>()).bending;
   for (unsigned int a = 0; a < point.cell.size(); ++a)
     {
       const auto change =
@@ -116,7 +118,7 @@ add_side(const RecordPoint &point,
                                                               point.dN[a],
                                                               point.ddN[a]);
       const auto m =
-        route.pushed ? rows.H * (rows.p[side] * rho) : H_cell * rho;
+        route.pushed ? rows.H * (rows.p[side] * rho) : rows.H_cell[side] * rho;
       const auto jump   = N_hat * change;
       const auto tested = route.transposed ? jump : transpose(N_hat) * change;
       for (unsigned int v = 0; v < 3; ++v)
@@ -284,9 +286,15 @@ test_points(const EdgeRecord &edge)
       // Where the tangent planes agree the tensors are inverse to each other.
       if (edge.record.get<double>("max_normal_angle_rad") < 1e-7)
         for (unsigned int side = 0; side < 2; ++side)
-          note("smooth edges, P p = I",
-               numbers_of(rows.P[side] * rows.p[side]),
-               {1., 0., 0., 0., 1., 0., 0., 0., 1.});
+          {
+            const auto &P = rows.P[side];
+            note("smooth edges, P p = I",
+                 numbers_of(P * rows.p[side]),
+                 {1., 0., 0., 0., 1., 0., 0., 0., 1.});
+            note("smooth edges, (41) P^T H_m P",
+                 numbers_of(transpose(P) * rows.H_cell[side] * P),
+                 numbers_of(rows.H));
+          }
     }
 }
 
