@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/forms/linear_kinematics.h>
+#include <nacre/forms/averaged_normal_kinematics.h>
 
 namespace Nacre
 {
@@ -15,7 +15,7 @@ namespace Nacre
   const std::vector<std::string> &
   edge_form_names()
   {
-    static const std::vector<std::string> names = {"hinge"};
+    static const std::vector<std::string> names = {"hinge", "averaged normal"};
     return names;
   }
 
@@ -58,6 +58,11 @@ namespace Nacre
                   const SectionLaw        &section,
                   const KinematicsOptions &options)
   {
+    if (options.edge_form == EdgeForm::averaged_normal)
+      return std::make_unique<AveragedNormalKinematics>(
+        discretization,
+        section,
+        options.membrane_strain);
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

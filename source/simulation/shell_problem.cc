@@ -63,9 +63,11 @@ namespace Nacre
     add_parameter("Edge form",
                   edge_form_name_,
                   "hinge: rotations and moments of an edge in each cell's own "
-                  "frame, independent of creases.",
+                  "frame, independent of creases; averaged normal: in a frame "
+                  "with the mean of both cells' normals, the same where the "
+                  "surface is smooth, but dependent on the angle of a crease.",
                   prm,
-                  Patterns::Selection("hinge"));
+                  Patterns::Selection("hinge|averaged normal"));
   }
 
   ShellProblem::~ShellProblem() = default;

@@ -160,6 +160,9 @@ case("unknown_element", ["Element", "unknown value 'Lagrang'", "'Lagrange'?"],
 case("unknown_membrane_strain",
      ["Membrane strain", "unknown value 'tide'", "'tied'?", "reduced"],
      {"Discretization/Membrane strain": "tide"})
+case("unknown_edge_form",
+     ["Edge form", "unknown value 'averaged normals'", "'averaged normal'?"],
+     {"Discretization/Edge form": "averaged normals"})
 
 # --- Constants and expressions ---------------------------------------------
 case("constant_without_value", ["Constants", "'b'", "has no value"],

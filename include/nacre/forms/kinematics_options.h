@@ -32,7 +32,9 @@ namespace Nacre
   enum class EdgeForm
   {
     /** Each cell's own: the scalar hinge form, independent of creases. */
-    hinge
+    hinge,
+    /** That of the averaged normal: the report's form (14), (34)-(45). */
+    averaged_normal
   };
 
   /** Names of EdgeForm in its order. */

@@ -50,6 +50,11 @@ namespace Nacre
                        const Vector<double>      &u,
                        LocalTerms                &terms) override;
 
+  protected:
+    const Discretization &discretization_;
+    const SectionLaw     &section_;
+    const MembraneStrain  membrane_strain_;
+
   private:
     /**
      * int strain(v) : stiffness : strain(u), stiffness including the
@@ -97,10 +102,7 @@ namespace Nacre
                       const Vector<double> &u,
                       LocalTerms           &terms) const;
 
-    const Discretization &discretization_;
-    const SectionLaw     &section_;
-    const MembraneStrain  membrane_strain_;
-    ShellCellValues       full_values_;
+    ShellCellValues full_values_;
     /** p x p points, for reduced integration only. */
     std::unique_ptr<ShellCellValues> reduced_values_;
 
