@@ -4,10 +4,13 @@
 #include <nacre/problem/coarse_cell.h>
 #include <nacre/problem/mesh_file.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -74,6 +77,8 @@ namespace Nacre
       void
       check_nodes() const;
       void
+      check_places() const;
+      void
       check_middles(const unsigned int cell) const;
       void
       check_area(const unsigned int cell) const;
@@ -105,6 +110,7 @@ namespace Nacre
         fail("it has no cells of a surface (triangles or quadrilaterals).");
       check_kinds();
       check_nodes();
+      check_places();
       for (unsigned int k = 0; k < mesh_.cells.size(); ++k)
         {
           if (mesh_.cells[k].nodes.size() > mesh_.n_corners(k))
@@ -157,7 +163,44 @@ namespace Nacre
       fail("the " + mesh_.describe_node(unused - used.begin()) +
            " belongs to no cell" +
            (n == 1 ? "" : " (nor do " + std::to_string(n - 1) + " others)") +
-           "; remove it.");
+           "; remove it (gmsh writes such nodes with Mesh.SaveAll; with "
+           "physical groups alone it doesn't).");
+    }
+
+
+    /** Nodes are sorted into boxes; neighbours are in one of 27. */
+    void
+    MeshChecker::check_places() const
+    {
+      const BoundingBox<3> box(mesh_.nodes);
+      const double         extent =
+        box.get_boundary_points().first.distance(
+          box.get_boundary_points().second);
+      const double tolerance = 1e-9 * extent;
+      using Box              = std::array<long long, 3>;
+      std::map<Box, std::vector<unsigned int>> boxes;
+      for (unsigned int i = 0; i < mesh_.nodes.size(); ++i)
+        {
+          Box home;
+          for (unsigned int c = 0; c < 3; ++c)
+            home[c] = std::llround((mesh_.nodes[i][c] - box.lower_bound(c)) /
+                                   (4. * tolerance));
+          for (int n = 0; n < 27; ++n)
+            {
+              const auto found = boxes.find({{home[0] + n % 3 - 1,
+                                              home[1] + n / 3 % 3 - 1,
+                                              home[2] + n / 9 - 1}});
+              if (found == boxes.end())
+                continue;
+              for (const unsigned int j : found->second)
+                if (mesh_.nodes[i].distance(mesh_.nodes[j]) <= tolerance)
+                  fail("the nodes " + node(j) + " and " + node(i) +
+                       " lie at the same place; make them one (gmsh: "
+                       "Coherence Mesh), or move them apart if a slit is "
+                       "meant.");
+            }
+          boxes[home].push_back(i);
+        }
     }
 
 
@@ -331,8 +374,7 @@ namespace Nacre
       if (apart != state.end())
         fail("the mesh has several parts: " + mesh_.describe_cell(0) + " and " +
              mesh_.describe_cell(apart - state.begin()) +
-             " aren't connected by common sides. Nodes at the same place must "
-             "be one node.");
+             " aren't connected by common sides.");
       const int few = 2 * std::count(state.begin(), state.end(), turned) >
                           static_cast<std::ptrdiff_t>(state.size()) ?
                         kept :

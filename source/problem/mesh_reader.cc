@@ -87,10 +87,17 @@ namespace Nacre
   }
 
 
+  bool
+  MeshText::has_line() const
+  {
+    return position_ < content_.size();
+  }
+
+
   std::string
   MeshText::line(const std::string &what)
   {
-    if (position_ == content_.size())
+    if (!has_line())
       fail("the file ends where " + what + " should be: it is truncated.");
     const auto        end = content_.find('\n', position_);
     const std::string text =

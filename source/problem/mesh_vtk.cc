@@ -81,9 +81,12 @@ namespace Nacre
         else if (name == "FIELD")
           read_field();
         else if (name == "METADATA")
-          while (!text_.line("the end of METADATA").empty() &&
-                 !text_.at_end() && text_.peek_line().find("INFORMATION") == 0)
-            ;
+          {
+            // Until an empty line.
+            text_.line("METADATA");
+            while (text_.has_line() && !text_.line("METADATA").empty())
+              ;
+          }
         else if (n_data_ == 0 && !name.empty() &&
                  std::isalpha(static_cast<unsigned char>(name[0])) == 0)
           text_.fail("found '" + name.substr(0, 40) +

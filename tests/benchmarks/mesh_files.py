@@ -69,6 +69,36 @@ def compare_formats(runs, prm):
     return wrong
 
 
+def vtk_5(text):
+    """The same VTK file as VTK 9 writes it: offsets, and METADATA."""
+    lines = text.splitlines()
+    cells = next(i for i, line in enumerate(lines) if line.startswith("CELLS"))
+    n = int(lines[cells].split()[1])
+    lists = [line.split()[1:] for line in lines[cells + 1:cells + 1 + n]]
+    offsets = [0]
+    for nodes in lists:
+        offsets.append(offsets[-1] + len(nodes))
+    metadata = ["METADATA", "INFORMATION 1",
+                "NAME L2_NORM_RANGE LOCATION vtkDataArray", "DATA 2 0 35.5", ""]
+    return "\n".join(
+        ["# vtk DataFile Version 5.1"] + lines[1:cells] + metadata +
+        [f"CELLS {n + 1} {offsets[-1]}", "OFFSETS vtktypeint64"] +
+        [str(i) for i in offsets] + ["CONNECTIVITY vtktypeint64"] +
+        [" ".join(nodes) for nodes in lists] + lines[cells + 1 + n:] +
+        ["VECTORS v double"] + ["0 0 nan"] * n + metadata +
+        ["POINT_DATA 81", "SCALARS MaterialID int", "LOOKUP_TABLE default"] +
+        ["7"] * 81 + [""])
+
+
+def compare_vtk_5(runs, prm):
+    path = runs.folder / "roof_5.vtk"
+    path.write_text(vtk_5((prm / "meshes" / "roof.vtk").read_text()))
+    case = prm / "meshes" / "roof_vtk.prm"
+    found = difference(runs.row(case, f"Mid-surface/file/File name={path}"),
+                       runs.row(case))
+    return check("VTK 5.1", found, found < TOLERANCE)
+
+
 def compare_strip(runs, prm):
     """A folded strip of one section, from a file and built in."""
     common = ["Study/Degrees=2", "Study/Refinements=1", "Section/Thickness=0.02"]
@@ -110,6 +140,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         runs = Runs(str(nacre), pathlib.Path(folder))
         wrong = compare_formats(runs, prm)
+        wrong += compare_vtk_5(runs, prm)
         wrong += compare_strip(runs, prm)
         wrong += check_folders(runs, prm)
     return 1 if wrong else 0

@@ -97,6 +97,9 @@ for number in "nan", "inf":
           NODES | {5: f"1 {number} 0"})
 wrong("node_twice", ["line 19", "the node 5 stands twice"],
       NODES | {"5 ": "1 1 0"})
+wrong("nodes_at_one_place", ["the nodes 5 and 8 lie at the same place"],
+      NODES | {7: "1 1e-12 0", 8: "1 1.00000000001 0"},
+      (LEFT, CELLS[0], (12, QUAD, 2, "7 3 6 8")))
 wrong("node_unknown", ["the element 12", "the node 99", "doesn't define"],
       elements=(LEFT, CELLS[0], (12, QUAD, 2, "2 3 99 5")))
 wrong("node_dangling", ["node 17 at (5, 5, 0)", "belongs to no cell"],

@@ -98,8 +98,8 @@ namespace Nacre
    * the greater part of the cells; find its boundary.
    *
    * Throws an ExcMessage with the numbers of the cells or nodes for: no cells,
-   * cells of several kinds, a node twice in a cell or in no cell, a cell that
-   * stands twice, degenerate or folded cells, middles far off their sides,
+   * cells of several kinds, a node twice in a cell or in no cell, two nodes at
+   * one place, a cell that stands twice, degenerate or folded cells, middles far off their sides,
    * sides shared by three cells, sides whose middles differ, one-sided
    * surfaces, unconnected parts, lines that aren't on the boundary or in two
    * groups.

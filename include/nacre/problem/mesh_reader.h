@@ -24,6 +24,10 @@ namespace Nacre
     bool
     at_end();
 
+    /** Whether line() has something to return, be it an empty line. */
+    bool
+    has_line() const;
+
     /** The rest of the current line, trimmed; fails at the end of the file. */
     std::string
     line(const std::string &what);
