@@ -93,19 +93,19 @@ namespace OwnSection
     }
 
     double
-    thickness(const Point<3> &) const override
+    thickness(const SectionPoint &) const override
     {
       return thickness_;
     }
 
     double
-    density(const Point<3> &) const override
+    density(const SectionPoint &) const override
     {
       return 0.;
     }
 
     SectionStiffness
-    stiffness(const SurfaceFrame<> &frame, const Point<3> &) const override
+    stiffness(const SurfaceFrame<> &frame, const SectionPoint &) const override
     {
       const VoigtMatrix<> T = strain_transformation(frame);
       const VoigtMatrix<> H = transpose(T) * material_stiffness() * T;

@@ -20,8 +20,9 @@ namespace Nacre
 
     // Components of the dyad nu nu, and of the moment it cuts out:
     // m_nn = nu . H_m rho . nu = (H_m nu nu) : rho.
-    const auto   dyad = ShellStrain::dyad_of(frame, nu);
-    const auto   H_nu = section.stiffness(frame, edge.point(q)).bending * dyad;
+    const auto dyad = ShellStrain::dyad_of(frame, nu);
+    const auto H_nu =
+      section.stiffness(frame, edge.point(q, side)).bending * dyad;
     const double nu_1 = frame.a_con[0] * nu;
     const double nu_2 = frame.a_con[1] * nu;
 

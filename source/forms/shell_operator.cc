@@ -394,7 +394,7 @@ namespace Nacre
   {
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
-        const auto  &x            = values.point(q);
+        const auto   x            = values.point(q);
         const double area_density = section_.density(x) * section_.thickness(x);
         const auto   load =
           values.JxW(q) *

@@ -2,8 +2,10 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mutation.h>
+#include <nacre/base/text.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Nacre
@@ -19,16 +21,27 @@ namespace Nacre
       return text.str();
     }
 
+    const char *const regions_parameter = "Section/Regions";
+
     double
-    positive(const double value, const char *what, const Point<3> &point)
+    positive(const double value, const std::string &what, const Point<3> &point)
     {
       AssertThrow(value > 0.,
-                  ExcMessage("Section/" + std::string(what) + ": " +
-                             to_text(value) + " at the point (" +
+                  ExcMessage(what + ": " + to_text(value) + " at the point (" +
                              to_text(point[0]) + ", " + to_text(point[1]) +
                              ", " + to_text(point[2]) +
                              "); it must be positive."));
       return value;
+    }
+
+    double
+    checked_nu(const double nu, const std::string &where)
+    {
+      AssertThrow(nu > -1. && nu < 0.5,
+                  ExcMessage(where + ": " + to_text(nu) +
+                             "; it must be larger than -1 and smaller than "
+                             "0.5."));
+      return nu;
     }
   } // namespace
 
@@ -51,16 +64,22 @@ namespace Nacre
                   density_text_,
                   "Mass per volume, a number or an expression of x, y, z. "
                   "Units: mass/length^3.");
+    add_parameter("Regions",
+                  regions_text_,
+                  "Other values in regions of the mesh, by the names of its "
+                  "groups of cells (mesh files only): "
+                  "'web: h = 0.2, E = 2*E; flange: h = 0.3'. Keys: h, E, "
+                  "density (expressions of x, y, z), nu; E, nu and h on the "
+                  "right are those of the section. Units: as above.");
   }
 
   void
   LinearElasticSection::prepare(const Constants &constants)
   {
-    nu_ = evaluate_number(nu_text_, "Section/Poisson's ratio", constants);
-    AssertThrow(nu_ > -1. && nu_ < 0.5,
-                ExcMessage("Section/Poisson's ratio: " + to_text(nu_) +
-                           "; it must be larger than -1 and smaller than "
-                           "0.5."));
+    const std::string nu_parameter = "Section/Poisson's ratio";
+    nu_ = checked_nu(evaluate_number(nu_text_, nu_parameter, constants),
+                     nu_parameter);
+    region_of_id_.clear();
     youngs_modulus_ =
       Expression(youngs_modulus_text_, "Section/Young's modulus", constants);
     thickness_ = Expression(thickness_text_, "Section/Thickness", constants);
@@ -72,6 +91,83 @@ namespace Nacre
       thickness(Point<3>());
     if (density_.is_constant())
       density(Point<3>());
+    prepare_regions(constants);
+  }
+
+  void
+  LinearElasticSection::prepare_regions(const Constants &constants)
+  {
+    regions_.clear();
+    Constants known = constants;
+    for (const auto &[name, value] : named_constants())
+      known[name] = value;
+    const std::vector<std::string> keys = {"h", "E", "density", "nu"};
+
+    for (const auto &entry : Text::split(regions_text_, ';', regions_parameter))
+      {
+        const auto colon = entry.find(':');
+        AssertThrow(colon != std::string::npos,
+                    ExcMessage(std::string(regions_parameter) + ": '" + entry +
+                               "' has no ':'; write 'name: h = 0.1'."));
+        const std::string name = Text::trim(entry.substr(0, colon));
+        const std::string where =
+          std::string(regions_parameter) + ", region '" + name + "'";
+        const auto [place, is_new] = regions_.try_emplace(name);
+        AssertThrow(is_new, ExcMessage(where + " stands twice."));
+        for (const auto &item :
+             Text::split(entry.substr(colon + 1), ',', where))
+          {
+            const auto [key, value] = Text::key_and_value(item);
+            AssertThrow(std::find(keys.begin(), keys.end(), key) != keys.end(),
+                        ExcMessage(
+                          Text::unknown_name(where, "value", key, keys)));
+            const std::string what = where + ", " + key;
+            if (key == "nu")
+              place->second.nu =
+                checked_nu(evaluate_number(value, what, known), what);
+            else
+              {
+                Expression expression(value, what, known);
+                if (key != "density" && expression.is_constant())
+                  positive(expression(Point<3>()), what, Point<3>());
+                place->second.values[key] = std::move(expression);
+              }
+          }
+      }
+  }
+
+  void
+  LinearElasticSection::set_regions(const std::vector<std::string> &names)
+  {
+    region_of_id_.assign(names.size(), nullptr);
+    for (const auto &[name, region] : regions_)
+      {
+        const auto found = std::find(names.begin(), names.end(), name);
+        AssertThrow(names.size() > 1,
+                    ExcMessage(std::string(regions_parameter) +
+                               ": the mid-surface has no region '" + name +
+                               "': only mesh files with named groups of cells "
+                               "have regions."));
+        AssertThrow(found != names.end() && !name.empty(),
+                    ExcMessage(
+                      Text::unknown_name(regions_parameter,
+                                         "region",
+                                         name,
+                                         {names.begin() + 1, names.end()})));
+        region_of_id_[found - names.begin()] = &region;
+      }
+  }
+
+  const Expression *
+  LinearElasticSection::own_value(const SectionPoint &point,
+                                  const std::string  &key) const
+  {
+    if (point.region() >= region_of_id_.size() ||
+        region_of_id_[point.region()] == nullptr)
+      return nullptr;
+    const auto &values = region_of_id_[point.region()]->values;
+    const auto  found  = values.find(key);
+    return found == values.end() ? nullptr : &found->second;
   }
 
   void
@@ -95,38 +191,55 @@ namespace Nacre
   }
 
   double
-  LinearElasticSection::youngs_modulus(const Point<3> &point) const
+  LinearElasticSection::youngs_modulus(const SectionPoint &point) const
   {
-    return positive(youngs_modulus_(point), "Young's modulus", point);
+    if (const Expression *const own = own_value(point, "E"))
+      return positive((*own)(point), "Section/Regions, E", point);
+    return positive(youngs_modulus_(point), "Section/Young's modulus", point);
   }
 
   double
-  LinearElasticSection::thickness(const Point<3> &point) const
+  LinearElasticSection::poissons_ratio(const SectionPoint &point) const
   {
+    if (point.region() < region_of_id_.size() &&
+        region_of_id_[point.region()] != nullptr)
+      return region_of_id_[point.region()]->nu.value_or(nu_);
+    return nu_;
+  }
+
+  double
+  LinearElasticSection::thickness(const SectionPoint &point) const
+  {
+    if (const Expression *const own = own_value(point, "h"))
+      return positive((*own)(point), "Section/Regions, h", point);
     return thickness_of_study_ ?
              *thickness_of_study_ :
-             positive(thickness_(point), "Thickness", point);
+             positive(thickness_(point), "Section/Thickness", point);
   }
 
   double
-  LinearElasticSection::density(const Point<3> &point) const
+  LinearElasticSection::density(const SectionPoint &point) const
   {
-    const double value = density_(point);
+    const Expression *const own   = own_value(point, "density");
+    const double            value = (own == nullptr ? density_ : *own)(point);
     AssertThrow(value >= 0.,
-                ExcMessage("Section/Density: " + to_text(value) +
-                           "; it must not be negative."));
+                ExcMessage(
+                  std::string(own == nullptr ? "Section/Density" :
+                                               "Section/Regions, density") +
+                  ": " + to_text(value) + "; it must not be negative."));
     return value;
   }
 
   SectionStiffness
   LinearElasticSection::stiffness(const SurfaceFrame<> &frame,
-                                  const Point<3>       &point) const
+                                  const SectionPoint   &point) const
   {
-    const double E = youngs_modulus(point);
-    const double h = thickness(point);
-    const auto   H = isotropic_stiffness(frame, NACRE_MUTABLE(nu, nu_, -nu_));
+    const double E  = youngs_modulus(point);
+    const double h  = thickness(point);
+    const double nu = poissons_ratio(point);
+    const auto   H  = isotropic_stiffness(frame, NACRE_MUTABLE(nu, nu, -nu));
     // (8), (9); the report's (31) prints (1 - nu^2)^2 by mistake.
-    const double membrane = E * h / (1. - nu_ * nu_);
+    const double membrane = E * h / (1. - nu * nu);
     const double bending  = membrane * h * h / NACRE_MUTABLE(twelve, 12., 10.);
     return {membrane * H, bending * H};
   }

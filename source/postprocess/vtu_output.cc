@@ -169,7 +169,7 @@ namespace Nacre
         values_.bending_rows().vmult(bending_strains_, u_);
       }
 
-      const Point<spacedim> &
+      Point<spacedim>
       position(const unsigned int q) const
       {
         return values_.point(q);
@@ -179,7 +179,7 @@ namespace Nacre
       state(const unsigned int q) const
       {
         const auto &frame = values_.frame(q);
-        const auto &point = values_.point(q);
+        const auto  point = values_.point(q);
         PointState  s;
         for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)

@@ -10,6 +10,7 @@
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace Nacre
 {
@@ -192,6 +193,30 @@ namespace Nacre
 
 
   void
+  Midsurface::set_files(const MPI_Comm communicator, const std::string &folder)
+  {
+    communicator_ = communicator;
+    folder_       = folder;
+    constants_of_file_.reset();
+  }
+
+
+  void
+  Midsurface::fix_file_name() const
+  {
+    namespace fs  = std::filesystem;
+    fs::path path = Text::trim(values_.at("file").at("File name"));
+    if (path.is_relative() && fs::exists(fs::path(folder_) / path))
+      path = fs::path(folder_) / path;
+    prm.enter_subsection("Mid-surface");
+    prm.enter_subsection("file");
+    prm.set("File name", fs::absolute(path).lexically_normal().string());
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+  void
   Midsurface::prepare(const Constants &constants)
   {
     const std::string        path  = "Mid-surface";
@@ -206,20 +231,32 @@ namespace Nacre
       ExcMessage(
         Text::unknown_name(path + "/Surface", "surface", name, names)));
 
+    // A study prepares for each of its cases.
+    if (name == "file" && constants_of_file_ == constants)
+      return;
+    constants_of_file_.reset();
     const SurfaceInput input(path,
                              name,
-                             values_.at(name),
+                             values_,
                              {subdivisions_, grading_},
-                             constants);
+                             constants,
+                             {communicator_, folder_});
+    surface_.reset();
     surface_ = std::make_unique<const ParametricSurface>(
       kinds[found - names.begin()].make(input),
       input.where());
 
-    diagonals_ =
-      choose_diagonals(surface_->cells(), surface_->vertices().size());
+    if (!surface_->has_triangles())
+      diagonals_ =
+        choose_diagonals(surface_->cells(), surface_->vertices().size());
     edge_names_.clear();
     for (const SurfaceDescription::Edge &edge : surface_->edges())
       edge_names_.push_back(edge.name);
+    if (name == "file")
+      {
+        fix_file_name();
+        constants_of_file_ = constants;
+      }
   }
 
 
@@ -231,22 +268,26 @@ namespace Nacre
     Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
 
     const bool triangles = (reference_cell == ReferenceCells::Triangle);
+    AssertThrow(triangles || !surface_->has_triangles(),
+                ExcMessage("Mid-surface/" + Text::trim(surface_name_) +
+                           ": the mesh has triangles, and the element in "
+                           "Discretization/Element needs quadrilaterals."));
     std::vector<CellData<dim>> cells;
     for (const SurfaceDescription::Cell &cell : surface_->cells())
-      if (triangles)
-        for (const auto &half :
-             halves[diagonals_[&cell - surface_->cells().data()]])
-          {
-            cells.emplace_back(3);
-            for (unsigned int v = 0; v < 3; ++v)
-              cells.back().vertices[v] = cell.vertices[half[v]];
-          }
-      else
-        {
-          cells.emplace_back();
-          cells.back().vertices.assign(cell.vertices.begin(),
-                                       cell.vertices.end());
-        }
+      {
+        const auto add = [&](const std::vector<unsigned int> &vertices) {
+          cells.emplace_back(vertices.size());
+          cells.back().vertices    = vertices;
+          cells.back().material_id = cell.region;
+        };
+        const auto &v = cell.vertices;
+        if (triangles && !surface_->has_triangles())
+          for (const auto &half :
+               halves[diagonals_[&cell - surface_->cells().data()]])
+            add({v[half[0]], v[half[1]], v[half[2]]});
+        else
+          add(v);
+      }
     SubCellData boundary;
     for (const ParametricSurface::BoundaryLine &line :
          surface_->boundary_lines())
@@ -304,7 +345,8 @@ namespace Nacre
         ancestor    = parent;
       }
     const unsigned int k = ancestor->index();
-    if (cell->reference_cell() == ReferenceCells::Triangle)
+    if (cell->reference_cell() == ReferenceCells::Triangle &&
+        !surface_->has_triangles())
       return surface_->position(k / 2,
                                 to_quadrilateral(diagonals_[k / 2],
                                                  k % 2,
@@ -317,6 +359,22 @@ namespace Nacre
   Midsurface::edge_names() const
   {
     return edge_names_;
+  }
+
+
+  const std::vector<std::string> &
+  Midsurface::region_names() const
+  {
+    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
+    return surface_->regions();
+  }
+
+
+  bool
+  Midsurface::has_triangles() const
+  {
+    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
+    return surface_->has_triangles();
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/problem/coarse_cell.h>
 #include <nacre/problem/parametric_surface.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -17,18 +18,6 @@ namespace Nacre
 {
   namespace
   {
-    /** Local vertices of the four lines, counterclockwise around the cell. */
-    constexpr unsigned int line_corners[4][2] = {{0, 1},
-                                                 {1, 3},
-                                                 {3, 2},
-                                                 {2, 0}};
-
-    Point<2>
-    unit_corner(const unsigned int corner)
-    {
-      return {double(corner % 2), double(corner / 2)};
-    }
-
     bool
     is_finite(const Tensor<1, 3> &point)
     {
@@ -40,11 +29,13 @@ namespace Nacre
 
     /** The Gauss points of a cell, then its corners: checked are these. */
     std::vector<Point<2>>
-    sample_points()
+    sample_points(const unsigned int n_corners)
     {
-      std::vector<Point<2>> points = QGauss<2>(n_samples).get_points();
-      for (unsigned int i = 0; i < 4; ++i)
-        points.push_back(unit_corner(i));
+      std::vector<Point<2>> points = n_corners == 3 ?
+                                       QGaussSimplex<2>(4).get_points() :
+                                       QGauss<2>(n_samples).get_points();
+      for (unsigned int i = 0; i < n_corners; ++i)
+        points.push_back(CoarseCell::unit_corner(n_corners, i));
       return points;
     }
   } // namespace
@@ -66,13 +57,7 @@ namespace Nacre
                            const Point<2>    &unit) const
   {
     AssertIndexRange(coarse_cell, description_.cells.size());
-    const auto  &corners = description_.cells[coarse_cell].chart;
-    const double x = unit[0], y = unit[1];
-    Point<3>     result;
-    for (unsigned int c = 0; c < 3; ++c)
-      result[c] = (1. - y) * ((1. - x) * corners[0][c] + x * corners[1][c]) +
-                  y * ((1. - x) * corners[2][c] + x * corners[3][c]);
-    return result;
+    return CoarseCell::position(description_.cells[coarse_cell].chart, unit);
   }
 
 
@@ -84,12 +69,19 @@ namespace Nacre
   }
 
 
+  bool
+  ParametricSurface::has_triangles() const
+  {
+    return description_.cells.front().vertices.size() == 3;
+  }
+
+
   std::vector<Point<3>>
   ParametricSurface::vertices() const
   {
     std::vector<Point<3>> result(description_.n_vertices);
     for (const SurfaceDescription::Cell &cell : description_.cells)
-      for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int i = 0; i < cell.vertices.size(); ++i)
         result[cell.vertices[i]] = (*description_.map)(cell.chart[i]);
     return result;
   }
@@ -116,71 +108,101 @@ namespace Nacre
   }
 
 
+  const std::vector<std::string> &
+  ParametricSurface::regions() const
+  {
+    return description_.regions;
+  }
+
+
   /**
-   * deal.II wants neighbours to agree on the direction of their common line.
-   * GridTools turns cells (by quarter turns, which keep the normal); their
-   * charts must turn with them.
+   * deal.II wants neighbouring quadrilaterals to agree on the direction of
+   * their common line. GridTools turns cells (by quarter turns, which keep the
+   * normal); their charts must turn with them.
    */
   void
   ParametricSurface::order_cells()
   {
+    if (has_triangles())
+      return;
     std::vector<CellData<2>> data(description_.cells.size());
     for (unsigned int k = 0; k < data.size(); ++k)
       data[k].vertices.assign(description_.cells[k].vertices.begin(),
                               description_.cells[k].vertices.end());
     GridTools::consistently_order_cells(data);
 
+    const auto &sides = CoarseCell::sides(4);
     for (unsigned int k = 0; k < data.size(); ++k)
       {
         const SurfaceDescription::Cell old  = description_.cells[k];
         SurfaceDescription::Cell      &cell = description_.cells[k];
+        std::array<unsigned int, 4>    old_corner;
         for (unsigned int i = 0; i < 4; ++i)
           {
             const auto found = std::find(old.vertices.begin(),
                                          old.vertices.end(),
                                          data[k].vertices[i]);
             Assert(found != old.vertices.end(), ExcInternalError());
+            old_corner[i]    = found - old.vertices.begin();
             cell.vertices[i] = *found;
-            cell.chart[i]    = old.chart[found - old.vertices.begin()];
+            cell.chart[i]    = old.chart[old_corner[i]];
           }
+        if (cell.chart.size() == 4)
+          continue;
+        for (const CoarseCell::Side &side : sides)
+          for (const CoarseCell::Side &old_side : sides)
+            if (std::minmax(old_corner[side.corners[0]],
+                            old_corner[side.corners[1]]) ==
+                std::minmax(old_side.corners[0], old_side.corners[1]))
+              cell.chart[side.middle] = old.chart[old_side.middle];
       }
+  }
+
+
+  unsigned int
+  ParametricSurface::edge_of(const CellLine &line) const
+  {
+    const SurfaceDescription::Cell &cell  = description_.cells[line.cell];
+    const auto                      found = description_.edge_of_line.find(
+      {cell.vertices[line.corners[0]], cell.vertices[line.corners[1]]});
+    if (found != description_.edge_of_line.end())
+      return found->second;
+    for (unsigned int e = 0; e < description_.edges.size(); ++e)
+      {
+        const auto &contains = description_.edges[e].contains;
+        if (contains && contains(cell.chart[line.corners[0]]) &&
+            contains(cell.chart[line.corners[1]]))
+          return e;
+      }
+    AssertThrow(false,
+                ExcMessage("A boundary line of the surface belongs to none of "
+                           "its named edges."));
+    return numbers::invalid_unsigned_int;
   }
 
 
   void
   ParametricSurface::find_lines()
   {
-    std::map<std::pair<unsigned int, unsigned int>, std::vector<CellLine>>
-      lines;
+    std::map<SurfaceDescription::Line, std::vector<CellLine>> lines;
     for (unsigned int k = 0; k < description_.cells.size(); ++k)
-      for (const auto &ends : line_corners)
-        {
-          const auto &vertices = description_.cells[k].vertices;
-          CellLine    line{k, {{ends[0], ends[1]}}, 1};
-          if (vertices[ends[0]] > vertices[ends[1]])
-            line = {k, {{ends[1], ends[0]}}, -1};
-          lines[{vertices[line.corners[0]], vertices[line.corners[1]]}]
-            .push_back(line);
-        }
+      {
+        const auto &vertices = description_.cells[k].vertices;
+        for (const auto &[ends, middle] : CoarseCell::sides(vertices.size()))
+          {
+            (void)middle;
+            CellLine line{k, ends, 1};
+            if (vertices[ends[0]] > vertices[ends[1]])
+              line = {k, {{ends[1], ends[0]}}, -1};
+            lines[{vertices[line.corners[0]], vertices[line.corners[1]]}]
+              .push_back(line);
+          }
+      }
 
     for (const auto &[ends, sides] : lines)
       if (sides.size() == 1)
-        {
-          const auto &chart = description_.cells[sides[0].cell].chart;
-          const auto  edge =
-            std::find_if(description_.edges.begin(),
-                         description_.edges.end(),
-                         [&](const SurfaceDescription::Edge &edge) {
-                           return edge.contains(chart[sides[0].corners[0]]) &&
-                                  edge.contains(chart[sides[0].corners[1]]);
-                         });
-          AssertThrow(edge != description_.edges.end(),
-                      ExcMessage("A boundary line of the surface belongs to "
-                                 "none of its named edges."));
-          boundary_lines_.push_back(
-            {{{ends.first, ends.second}},
-             static_cast<unsigned int>(edge - description_.edges.begin())});
-        }
+        boundary_lines_.push_back(
+          {{{ends.first, ends.second}}, edge_of(sides[0])});
       else
         {
           // deal.II would accept both silently.
@@ -199,6 +221,11 @@ namespace Nacre
   {
     const Point<3>     point = chart(coarse_cell, unit);
     std::ostringstream text;
+    if (!description_.cell_names.empty())
+      {
+        text << description_.cell_names[coarse_cell] << " at (" << point << ')';
+        return text.str();
+      }
     text << '(' << point[0] << ", " << point[1];
     // Surfaces over a rectangle have no third coordinate.
     bool rectangle = true;
@@ -213,61 +240,70 @@ namespace Nacre
 
 
   /**
-   * The tangents are second-order differences taken inside of the cell, so
-   * that a pole gives zero (to step^2) and a crease on a mesh line does no
-   * harm.
+   * Second-order differences taken inside of the cell, so that a pole gives
+   * zero (to step^2) and a crease on a mesh line does no harm.
    */
+  std::array<Tensor<1, 3>, 2>
+  ParametricSurface::tangents(const unsigned int coarse_cell,
+                              const Point<2>    &unit) const
+  {
+    const double                step = 1e-5;
+    const Point<3>              x0   = position(coarse_cell, unit);
+    std::array<Tensor<1, 3>, 2> result;
+    for (unsigned int a = 0; a < 2; ++a)
+      {
+        const double inward = unit[a] < 0.5 ? step : -step;
+        Point<2>     p1 = unit, p2 = unit;
+        p1[a] += inward;
+        p2[a] += 2. * inward;
+        result[a] = (4. * (position(coarse_cell, p1) - x0) -
+                     (position(coarse_cell, p2) - x0)) /
+                    (2. * inward);
+      }
+    return result;
+  }
+
+
   void
   ParametricSurface::check_not_degenerate(const std::string &where) const
   {
-    const double step      = 1e-5;
     const double tolerance = 1e-7;
 
-    const std::vector<Point<2>>              points = sample_points();
-    std::vector<double>                      jacobians(points.size());
-    std::vector<std::array<Tensor<1, 3>, 2>> all_tangents(points.size());
+    const unsigned int          n_corners = has_triangles() ? 3 : 4;
+    const std::vector<Point<2>> points    = sample_points(n_corners);
+    std::vector<std::array<Tensor<1, 3>, 2>> t(points.size());
     for (unsigned int k = 0; k < description_.cells.size(); ++k)
       {
         std::array<double, 2> longest{{0., 0.}};
         for (unsigned int q = 0; q < points.size(); ++q)
           {
-            const Point<3> x0 = position(k, points[q]);
-            AssertThrow(is_finite(x0),
+            AssertThrow(is_finite(position(k, points[q])),
                         ExcMessage(where + ": the position at " +
                                    describe(k, points[q]) + " isn't finite."));
-            std::array<Tensor<1, 3>, 2> tangents;
+            t[q] = tangents(k, points[q]);
             for (unsigned int a = 0; a < 2; ++a)
-              {
-                const double inward = points[q][a] < 0.5 ? step : -step;
-                Point<2>     p1 = points[q], p2 = points[q];
-                p1[a] += inward;
-                p2[a] += 2. * inward;
-                tangents[a] =
-                  (4. * (position(k, p1) - x0) - (position(k, p2) - x0)) /
-                  (2. * inward);
-                longest[a] = std::max(longest[a], tangents[a].norm());
-              }
-            jacobians[q]    = cross_product_3d(tangents[0], tangents[1]).norm();
-            all_tangents[q] = tangents;
+              longest[a] = std::max(longest[a], t[q][a].norm());
           }
         for (unsigned int q = 0; q < points.size(); ++q)
-          AssertThrow(jacobians[q] > tolerance * longest[0] * longest[1],
+          AssertThrow(cross_product_3d(t[q][0], t[q][1]).norm() >
+                        tolerance * longest[0] * longest[1],
                       ExcMessage(
                         where + ": the surface is degenerate at " +
                         describe(k, points[q]) +
                         ": its area Jacobian |x,u x x,v| is zero there. Every "
                         "point needs two independent tangents (no poles, no "
                         "sides shrunk to a point or a line)."));
+        if (n_corners == 3)
+          continue;
         // Along a line of Gauss points the surface must not turn back.
         for (unsigned int q = 0; q < n_samples * n_samples; ++q)
           for (unsigned int a = 0; a < 2; ++a)
             {
               if ((a == 0 ? q % n_samples : q / n_samples) + 1 == n_samples)
                 continue;
-              const unsigned int  next = q + (a == 0 ? 1 : n_samples);
-              const Tensor<1, 3> &t    = all_tangents[q][a],
-                                 &s    = all_tangents[next][a];
-              AssertThrow(t * s > -0.9 * t.norm() * s.norm(),
+              const unsigned int next = q + (a == 0 ? 1 : n_samples);
+              AssertThrow(t[q][a] * t[next][a] >
+                            -0.9 * t[q][a].norm() * t[next][a].norm(),
                           ExcMessage(where +
                                      ": the surface is degenerate: it "
                                      "turns back on itself between " +
@@ -278,12 +314,19 @@ namespace Nacre
   }
 
 
+  Point<2>
+  ParametricSurface::unit_point(const CellLine &line, const double t) const
+  {
+    const unsigned int n = description_.cells[line.cell].vertices.size();
+    return Point<2>((1. - t) * CoarseCell::unit_corner(n, line.corners[0]) +
+                    t * CoarseCell::unit_corner(n, line.corners[1]));
+  }
+
+
   Point<3>
   ParametricSurface::line_point(const CellLine &line, const double t) const
   {
-    return position(line.cell,
-                    Point<2>((1. - t) * unit_corner(line.corners[0]) +
-                             t * unit_corner(line.corners[1])));
+    return position(line.cell, unit_point(line, t));
   }
 
 
@@ -303,11 +346,9 @@ namespace Nacre
           if (a.distance(b) <= 1e-9 * extent)
             continue;
           std::ostringstream text;
-          const Point<2>     unit((1. - t) * unit_corner(second.corners[0]) +
-                              t * unit_corner(second.corners[1]));
           text << where << ": the closed surface doesn't meet itself: at "
-               << describe(second.cell, unit) << " it is at (" << b
-               << "), on the other side of the seam at (" << a
+               << describe(second.cell, unit_point(second, t)) << " it is at ("
+               << b << "), on the other side of the seam at (" << a
                << "). Give the range a full period, or choose Closed = none.";
           AssertThrow(false, ExcMessage(text.str()));
         }

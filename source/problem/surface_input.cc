@@ -73,17 +73,36 @@ namespace Nacre
   } // namespace
 
 
-  SurfaceInput::SurfaceInput(const std::string                        &path,
-                             const std::string                        &surface,
-                             const std::map<std::string, std::string> &values,
-                             const Mesh                               &mesh,
-                             const Constants &constants)
+  SurfaceInput::SurfaceInput(const std::string &path,
+                             const std::string &surface,
+                             const Values      &values,
+                             const Mesh        &mesh,
+                             const Constants   &constants,
+                             const Files       &files)
     : path_(path)
     , surface_(surface)
     , values_(values)
     , mesh_(mesh)
     , constants_(constants)
+    , files_(files)
   {}
+
+
+  SurfaceInput
+  SurfaceInput::of_map(const std::string &surface) const
+  {
+    return {path_, surface, values_, {"4", {{"s", "s"}}}, constants_, files_};
+  }
+
+
+  InputFile
+  SurfaceInput::file(const std::string &parameter) const
+  {
+    return read_input_file(files_.communicator,
+                           text(parameter),
+                           files_.folder,
+                           where(parameter));
+  }
 
 
   std::string
@@ -96,8 +115,9 @@ namespace Nacre
   const std::string &
   SurfaceInput::text(const std::string &parameter) const
   {
-    const auto found = values_.find(parameter);
-    Assert(found != values_.end(),
+    const auto &values = values_.at(surface_);
+    const auto  found  = values.find(parameter);
+    Assert(found != values.end(),
            ExcMessage(where(parameter) + " isn't declared."));
     return found->second;
   }

@@ -378,7 +378,8 @@ namespace Nacre
        make_hyperbolic_paraboloid},
       {"torus", torus_parameters(), make_torus},
       {"folded strip", folded_strip_parameters(), make_folded_strip},
-      {"expression", expression_parameters(), make_expression}};
+      {"expression", expression_parameters(), make_expression},
+      {"file", file_surface_parameters(), make_file_surface}};
     return kinds;
   }
 } // namespace Nacre

@@ -143,6 +143,7 @@ namespace Nacre
         name_ = path.string();
       }
     check_lists();
+    problem_.set_folder(std::filesystem::path(prm_file).parent_path().string());
     for (const auto &shell_case : make_cases())
       prepare_case(shell_case);
   }

@@ -73,6 +73,12 @@ namespace Nacre
   ShellProblem::~ShellProblem() = default;
 
   void
+  ShellProblem::set_folder(const std::string &folder)
+  {
+    midsurface_.set_files(communicator_, folder);
+  }
+
+  void
   ShellProblem::prepare(const Constants &constants, const ShellCase &shell_case)
   {
     case_ = shell_case;
@@ -89,6 +95,7 @@ namespace Nacre
         constants_[name] = value;
       }
     midsurface_.prepare(constants_);
+    section_->set_regions(midsurface_.region_names());
     boundary_conditions_.prepare(midsurface_, constants_);
     loads_.prepare(midsurface_, constants_);
     exact_solution_.prepare(constants_);

@@ -35,19 +35,20 @@ public:
   }
 
   double
-  thickness(const Point<3> &point) const override
+  thickness(const SectionPoint &point) const override
   {
     return section_.thickness(point);
   }
 
   double
-  density(const Point<3> &point) const override
+  density(const SectionPoint &point) const override
   {
     return section_.density(point);
   }
 
   SectionStiffness
-  stiffness(const SurfaceFrame<> &frame, const Point<3> &point) const override
+  stiffness(const SurfaceFrame<> &frame,
+            const SectionPoint   &point) const override
   {
     const auto both = section_.stiffness(frame, point);
     return {membrane_ * both.membrane, (1. - membrane_) * both.bending};

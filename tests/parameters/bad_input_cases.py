@@ -14,6 +14,7 @@ A case is named and has
 """
 import re
 
+WITH_GOOD_CASES = True
 BASE = """\
 set Title     = Plate
 set Constants = a = 2, q = 0.01

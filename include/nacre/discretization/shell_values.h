@@ -7,6 +7,7 @@
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/membrane_tying.h>
 #include <nacre/discretization/shape_table.h>
+#include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/fe/fe_interface_values.h>
@@ -63,11 +64,12 @@ namespace Nacre
       return frames_[q];
     }
 
-    /** Position of the point @p q (length). */
-    const Point<spacedim> &
+    /** Position of the point @p q (length), and the region of the cell. */
+    SectionPoint
     point(const unsigned int q) const
     {
-      return fe_values_.quadrature_point(q);
+      return {fe_values_.quadrature_point(q),
+              fe_values_.get_cell()->material_id()};
     }
 
     /** Area element times weight (length^2). */
@@ -194,11 +196,12 @@ namespace Nacre
       return interface_values_.JxW(q);
     }
 
-    /** Position (length). */
-    const Point<spacedim> &
-    point(const unsigned int q) const
+    /** Position (length), and the region of the cell of the side. */
+    SectionPoint
+    point(const unsigned int q, const unsigned int side = 0) const
     {
-      return interface_values_.get_fe_face_values(0).quadrature_point(q);
+      const auto &values = interface_values_.get_fe_face_values(side);
+      return {values.quadrature_point(q), values.get_cell()->material_id()};
     }
 
     const SurfaceFrame<> &

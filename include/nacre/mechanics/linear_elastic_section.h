@@ -9,7 +9,10 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -42,6 +45,7 @@ namespace Nacre
   /**
    * Isotropic linear elastic homogeneous section, (8)-(10):
    * H_n = E h/(1 - nu^2) H, H_m = E h^3/(12 (1 - nu^2)) H.
+   * Regions of the mesh may have values of their own.
    */
   class LinearElasticSection
     : public SectionLaw
@@ -59,30 +63,55 @@ namespace Nacre
     Constants
     named_constants() const override;
 
-    double
-    thickness(const Point<3> &point) const override;
+    void
+    set_regions(const std::vector<std::string> &names) override;
 
     double
-    density(const Point<3> &point) const override;
+    thickness(const SectionPoint &point) const override;
+
+    double
+    density(const SectionPoint &point) const override;
 
     SectionStiffness
     stiffness(const SurfaceFrame<> &frame,
-              const Point<3>       &point) const override;
+              const SectionPoint   &point) const override;
 
   private:
+    /** What a region has instead of the section's own values. */
+    struct Region
+    {
+      std::map<std::string, Expression> values;
+      std::optional<double>             nu;
+    };
+
+    void
+    prepare_regions(const Constants &constants);
+
+    /** The region's own expression named @p key, or nothing. */
+    const Expression *
+    own_value(const SectionPoint &point, const std::string &key) const;
+
     double
-    youngs_modulus(const Point<3> &point) const;
+    youngs_modulus(const SectionPoint &point) const;
+
+    double
+    poissons_ratio(const SectionPoint &point) const;
 
     std::string youngs_modulus_text_ = "1";
     std::string thickness_text_      = "0.1";
     std::string density_text_        = "0";
     std::string nu_text_             = "0.3";
-    double      nu_                  = 0.3;
+    std::string regions_text_;
+    double      nu_ = 0.3;
 
     Expression            youngs_modulus_;
     Expression            thickness_;
     Expression            density_;
     std::optional<double> thickness_of_study_;
+
+    std::map<std::string, Region> regions_;
+    /** By the region of a point; null: the section's own values. */
+    std::vector<const Region *> region_of_id_;
   };
 } // namespace Nacre
 

@@ -6,8 +6,37 @@
 
 #include <nacre/mechanics/surface_frame.h>
 
+#include <deal.II/base/types.h>
+
+#include <string>
+#include <vector>
+
 namespace Nacre
 {
+  /**
+   * A point of the mid-surface (length) as a section sees it: the position and
+   * the region of the mesh that the cell belongs to.
+   */
+  class SectionPoint : public Point<3>
+  {
+  public:
+    /** Not explicit: on surfaces without regions any point will do. */
+    SectionPoint(const Point<3> &position, const types::material_id region = 0)
+      : Point<3>(position)
+      , region_(region)
+    {}
+
+    /** The cell's material id; 0: no region of a name. */
+    types::material_id
+    region() const
+    {
+      return region_;
+    }
+
+  private:
+    types::material_id region_;
+  };
+
   /** Stiffness of a section in the covariant basis, Voigt [resultant][strain]. */
   struct SectionStiffness
   {
@@ -44,17 +73,29 @@ namespace Nacre
     virtual Constants
     named_constants() const = 0;
 
+    /**
+     * Tell the section the names of the mesh's regions; the index is the
+     * region() of a point, and the name 0 is empty. Called after prepare().
+     * Throws if the section has values for a region that isn't there. Sections
+     * that are the same everywhere need not care.
+     */
+    virtual void
+    set_regions(const std::vector<std::string> &names)
+    {
+      (void)names;
+    }
+
     /** Thickness (length) at @p point; throws if it isn't positive. */
     virtual double
-    thickness(const Point<3> &point) const = 0;
+    thickness(const SectionPoint &point) const = 0;
 
     /** Mass per volume at @p point. */
     virtual double
-    density(const Point<3> &point) const = 0;
+    density(const SectionPoint &point) const = 0;
 
     /** H_n and H_m, (8)-(10), at @p point with the surface's @p frame. */
     virtual SectionStiffness
-    stiffness(const SurfaceFrame<> &frame, const Point<3> &point) const = 0;
+    stiffness(const SurfaceFrame<> &frame, const SectionPoint &point) const = 0;
   };
 } // namespace Nacre
 

@@ -16,6 +16,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,9 @@ namespace Nacre
   class ParametricSurface;
 
   /**
-   * The mid-surface phi0 of the shell: a coarse quadrilateral mesh in a chart
-   * and the map from the chart to space. For triangles each coarse
-   * quadrilateral is cut along a diagonal.
+   * The mid-surface phi0 of the shell: a coarse mesh in a chart and the map
+   * from the chart to space, built in or read from a mesh file. For triangles
+   * each coarse quadrilateral is cut along a diagonal.
    *
    * The mesh is only a topology. The position of any point of any descendant
    * cell follows from the coarse cell, the path of children down to the cell,
@@ -40,17 +41,28 @@ namespace Nacre
     ~Midsurface() override;
 
     /**
+     * How prepare() reads a mesh file: on rank 0 of @p communicator, a relative
+     * name from the @p folder of the parameter file. Without this call every
+     * process reads for itself.
+     */
+    void
+    set_files(const MPI_Comm communicator, const std::string &folder);
+
+    /**
      * Build the chosen surface. Throws for an unknown surface or edge, for
-     * parameters out of range, and for a surface that is degenerate (area
-     * Jacobian zero or not finite).
+     * parameters out of range, for a surface that is degenerate (area
+     * Jacobian zero or not finite), and for a file that isn't a good mesh.
+     * Collective if the surface is a file's.
      */
     void
     prepare(const Constants &constants);
 
     /**
      * The mesh of the mid-surface of cells like @p reference_cell, refined
-     * @p n_refinements times, with the boundary ids of edge_names():
-     * quadrilaterals on p4est, triangles on a mesh that all ranks know.
+     * @p n_refinements times, with the boundary ids of edge_names() and the
+     * material ids of region_names(): quadrilaterals on p4est, triangles on a
+     * mesh that all ranks know. Triangles of a file can't be quadrilaterals:
+     * that throws.
      */
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
     create_triangulation(const MPI_Comm       communicator,
@@ -76,7 +88,19 @@ namespace Nacre
     types::boundary_id
     edge_id(const std::string &name, const std::string &where) const;
 
+    /** Names of the regions of cells; the first is empty: no region. */
+    const std::vector<std::string> &
+    region_names() const;
+
+    /** Whether the coarse cells are triangles. */
+    bool
+    has_triangles() const;
+
   private:
+    /** Write where the mesh file is into the parameters, for used.prm. */
+    void
+    fix_file_name() const;
+
     /** @name Parameters */
     //@{
     std::string                surface_name_ = "plate";
@@ -85,6 +109,11 @@ namespace Nacre
     /** Texts of the surfaces' own parameters by surface and parameter. */
     std::map<std::string, std::map<std::string, std::string>> values_;
     //@}
+
+    MPI_Comm    communicator_ = MPI_COMM_SELF;
+    std::string folder_;
+    /** With what the surface of a file was built: not again for the same. */
+    std::optional<Constants> constants_of_file_;
 
     std::unique_ptr<const ParametricSurface> surface_;
     /** How each coarse quadrilateral is cut for triangles. */

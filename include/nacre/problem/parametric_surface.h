@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -60,12 +61,22 @@ namespace Nacre
    */
   struct SurfaceDescription
   {
-    /** Corners in deal.II's lexicographic order: (0,0), (1,0), (0,1), (1,1). */
+    /** All cells are quadrilaterals, or all are triangles. */
     struct Cell
     {
-      std::array<unsigned int, 4> vertices;
-      /** A vertex of a closed surface has another chart in each cell. */
-      std::array<Point<3>, 4> chart;
+      /**
+       * Three corners, or four in deal.II's lexicographic order: (0,0), (1,0),
+       * (0,1), (1,1).
+       */
+      std::vector<unsigned int> vertices = std::vector<unsigned int>(4);
+      /**
+       * Charts of the corners, in cells of the second order also of the
+       * middles of the sides and of the centre: see CoarseCell. A vertex of a
+       * closed surface has another chart in each cell.
+       */
+      std::vector<Point<3>> chart = std::vector<Point<3>>(4);
+      /** Index into the names of the regions. */
+      unsigned int region = 0;
     };
 
     /** A named part of the boundary. */
@@ -77,17 +88,31 @@ namespace Nacre
       std::function<bool(const Point<3> &chart)> contains;
     };
 
+    /** A line by its end vertices, the smaller first. */
+    using Line = std::pair<unsigned int, unsigned int>;
+
     unsigned int                    n_vertices = 0;
     std::vector<Cell>               cells;
     std::vector<Edge>               edges;
     std::unique_ptr<const ChartMap> map;
+    /**
+     * The index of the edge of every boundary line, in place of
+     * Edge::contains; for mesh files.
+     */
+    std::map<Line, unsigned int> edge_of_line;
+    /** Names of the regions of cells; the first means no region. */
+    std::vector<std::string> regions{""};
+    /** What messages call a cell: "cell 17 of 'roof.msh'"; may be empty. */
+    std::vector<std::string> cell_names;
   };
 
   /**
-   * A surface that has passed the checks: a topology of coarse quadrilaterals,
-   * all of one orientation, that covers the surface, and the exact position of
-   * every point of every coarse cell,
-   *   x(K, xi) = map(sum_i N_i(xi) chart_i(K)),   N_i bilinear, xi in [0, 1]^2.
+   * A surface that has passed the checks: a topology of coarse cells, all
+   * quadrilaterals or all triangles and all of one orientation, that covers
+   * the surface, and the exact position of every point of every coarse cell,
+   *   x(K, xi) = map(sum_i N_i(xi) chart_i(K)),
+   * N_i linear or quadratic (CoarseCell), xi in the reference cell: [0, 1]^2
+   * or the triangle (0,0), (1,0), (0,1).
    */
   class ParametricSurface
   {
@@ -114,13 +139,17 @@ namespace Nacre
     ParametricSurface(SurfaceDescription &&description,
                       const std::string   &where);
 
-    /** Position (length) of @p unit in [0, 1]^2 of the coarse cell. */
+    /** Position (length) of @p unit in the reference cell of the coarse cell. */
     Point<3>
     position(const unsigned int coarse_cell, const Point<2> &unit) const;
 
-    /** The chart of @p unit in [0, 1]^2 of the coarse cell. */
+    /** The chart of @p unit in the reference cell of the coarse cell. */
     Point<3>
     chart(const unsigned int coarse_cell, const Point<2> &unit) const;
+
+    /** Whether the cells are triangles. */
+    bool
+    has_triangles() const;
 
     /** Exact positions of the coarse vertices. */
     std::vector<Point<3>>
@@ -134,6 +163,10 @@ namespace Nacre
 
     const std::vector<BoundaryLine> &
     boundary_lines() const;
+
+    /** Names of the regions; the index is SurfaceDescription::Cell::region. */
+    const std::vector<std::string> &
+    regions() const;
 
   private:
     /** A line of a coarse cell as seen from that cell. */
@@ -152,14 +185,25 @@ namespace Nacre
     void
     find_lines();
 
+    unsigned int
+    edge_of(const CellLine &line) const;
+
     void
     check_not_degenerate(const std::string &where) const;
+
+    /** x,u and x,v at a point of a coarse cell. */
+    std::array<Tensor<1, 3>, 2>
+    tangents(const unsigned int coarse_cell, const Point<2> &unit) const;
 
     void
     check_lines_meet(const std::string &where) const;
 
     std::string
     describe(const unsigned int coarse_cell, const Point<2> &unit) const;
+
+    /** The point of the cell's reference cell at @p t of the line. */
+    Point<2>
+    unit_point(const CellLine &line, const double t) const;
 
     Point<3>
     line_point(const CellLine &line, const double t) const;

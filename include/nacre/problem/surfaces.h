@@ -4,6 +4,7 @@
 #ifndef nacre_problem_surfaces_h
 #define nacre_problem_surfaces_h
 
+#include <nacre/base/input_file.h>
 #include <nacre/problem/parametric_surface.h>
 
 #include <array>
@@ -31,16 +32,38 @@ namespace Nacre
       std::array<std::string, 2> grading;
     };
 
+    /** Texts of the parameters by surface and parameter. */
+    using Values = std::map<std::string, std::map<std::string, std::string>>;
+
+    /** How files are read: see read_input_file(). */
+    struct Files
+    {
+      MPI_Comm    communicator = MPI_COMM_SELF;
+      std::string folder;
+    };
+
     /**
      * @param path the subsection of all surfaces, for messages
      * @param surface the surface's name and subsection
-     * @param values the texts of its parameters by name
+     * @param values the texts of all surfaces' parameters
      */
-    SurfaceInput(const std::string                        &path,
-                 const std::string                        &surface,
-                 const std::map<std::string, std::string> &values,
-                 const Mesh                               &mesh,
-                 const Constants                          &constants);
+    SurfaceInput(const std::string &path,
+                 const std::string &surface,
+                 const Values      &values,
+                 const Mesh        &mesh,
+                 const Constants   &constants,
+                 const Files       &files);
+
+    /**
+     * The input of another surface, with any coarse mesh: for those who ask
+     * for its map alone.
+     */
+    SurfaceInput
+    of_map(const std::string &surface) const;
+
+    /** The file that a parameter names. Collective. */
+    InputFile
+    file(const std::string &parameter) const;
 
     /** The full name of a parameter of this surface, or of its subsection. */
     std::string
@@ -97,11 +120,12 @@ namespace Nacre
     n_patch_cells() const;
 
   private:
-    std::string                        path_;
-    std::string                        surface_;
-    std::map<std::string, std::string> values_;
-    Mesh                               mesh_;
-    Constants                          constants_;
+    std::string path_;
+    std::string surface_;
+    Values      values_;
+    Mesh        mesh_;
+    Constants   constants_;
+    Files       files_;
   };
 
   /** A parameter of a surface: all are texts that are evaluated later. */
@@ -181,6 +205,19 @@ namespace Nacre
 
   std::vector<SurfaceParameter>
   hemisphere_parameters();
+  //@}
+
+  /** @name Surfaces of mesh files: doc/mesh_files.md */
+  //@{
+  /**
+   * The cells of a file with the positions of their nodes as charts, and the
+   * identity as map, or the projection onto a named surface.
+   */
+  SurfaceDescription
+  make_file_surface(const SurfaceInput &input);
+
+  std::vector<SurfaceParameter>
+  file_surface_parameters();
   //@}
 } // namespace Nacre
 

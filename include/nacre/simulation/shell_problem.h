@@ -53,6 +53,10 @@ namespace Nacre
                  std::unique_ptr<SectionLaw> section);
     ~ShellProblem() override;
 
+    /** The folder of the parameter file: mesh files are looked for there. */
+    void
+    set_folder(const std::string &folder);
+
     /** Read and check everything for a case; throws ExcMessage. */
     void
     prepare(const Constants &constants, const ShellCase &shell_case);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_problem_mesh_file_h
+#define nacre_problem_mesh_file_h
+
+#include <nacre/base/types.h>
+
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /** A surface mesh as a file describes it. */
+  struct MeshFile
+  {
+    /** A cell, or a line of the boundary. */
+    struct Element
+    {
+      /** The file's number of it. */
+      long long number = 0;
+      /**
+       * Indices into nodes. Cells: in the order of CoarseCell; 3, 4, 6, 8 (no
+       * centre) or 9. Lines: the ends, and the middle if there is one.
+       */
+      std::vector<unsigned int> nodes;
+      /** The name of its group, or empty. */
+      std::string group;
+    };
+
+    /** A named set of nodes, which stands for the boundary lines between. */
+    struct NodeSet
+    {
+      std::string               name;
+      std::vector<unsigned int> nodes;
+    };
+
+    /** For messages. */
+    std::string path;
+
+    std::vector<Point<3>> nodes;
+    /** The file's numbers of the nodes. */
+    std::vector<long long> node_numbers;
+    std::vector<Element>   cells;
+    std::vector<Element>   lines;
+    std::vector<NodeSet>   node_sets;
+
+    /** "node 17 at (0, 0.5, 1)" */
+    std::string
+    describe_node(const unsigned int node) const;
+
+    /** "cell 17" */
+    std::string
+    describe_cell(const unsigned int cell) const;
+
+    /** Corners of a cell: 3 or 4. */
+    unsigned int
+    n_corners(const unsigned int cell) const;
+
+    /**
+     * The points of a cell for CoarseCell; an 8-node cell gets the centre that
+     * its functions give.
+     */
+    std::vector<Point<3>>
+    points(const unsigned int cell) const;
+  };
+
+  /**
+   * The mesh in a file's @p content; the format is recognised by the content:
+   * gmsh .msh 2 and 4.1, VTK legacy, Abaqus .inp, UCD (AVS), as text. Throws
+   * an ExcMessage with @p path and the line for what isn't in the format, and
+   * with the number of the element or node for solid cells, cells of higher
+   * degree, nodes that aren't defined or are twice, coordinates that aren't
+   * finite.
+   */
+  MeshFile
+  read_mesh(const std::string &content, const std::string &path);
+
+  /** The boundary of a mesh that has passed check_mesh(). */
+  struct MeshBoundary
+  {
+    struct Line
+    {
+      /** Indices of the end nodes. */
+      unsigned int first;
+      unsigned int second;
+      /** Index into names. */
+      unsigned int edge;
+    };
+
+    /** Names of the groups in the order of the file; then "boundary". */
+    std::vector<std::string> names;
+    std::vector<Line>        lines;
+  };
+
+  /**
+   * Check a mesh and turn cells over until all have one orientation, that of
+   * the greater part of the cells; find its boundary.
+   *
+   * Throws an ExcMessage with the numbers of the cells or nodes for: no cells,
+   * cells of several kinds, a node twice in a cell or in no cell, two nodes at
+   * one place, a cell that stands twice, degenerate or folded cells, middles far off their sides,
+   * sides shared by three cells, sides whose middles differ, one-sided
+   * surfaces, unconnected parts, lines that aren't on the boundary or in two
+   * groups.
+   */
+  MeshBoundary
+  check_mesh(MeshFile &mesh);
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_problem_mesh_reader_h
+#define nacre_problem_mesh_reader_h
+
+#include <nacre/problem/mesh_file.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace Nacre
+{
+  /** The text of a mesh file, by words or by lines. */
+  class MeshText
+  {
+  public:
+    MeshText(const std::string &content, const std::string &path);
+
+    /** Whether nothing but white space is left. */
+    bool
+    at_end();
+
+    /** Whether line() has something to return, be it an empty line. */
+    bool
+    has_line() const;
+
+    /** The rest of the current line, trimmed; fails at the end of the file. */
+    std::string
+    line(const std::string &what);
+
+    /** The next line with something in it, not taken; empty at the end. */
+    std::string
+    peek_line();
+
+    /**
+     * The next word, across lines. @p what is what it should be, for the
+     * message at the end of the file.
+     */
+    std::string
+    word(const std::string &what);
+
+    long long
+    integer(const std::string &what);
+
+    /** An integer not below zero. */
+    std::size_t
+    count(const std::string &what);
+
+    /** "nan" and "inf" are numbers here; MeshBuilder refuses them. */
+    double
+    number(const std::string &what);
+
+    Point<3>
+    point(const std::string &what);
+
+    /** Throw "path, line 7: text". */
+    [[noreturn]] void
+    fail(const std::string &text) const;
+
+    const std::string &
+    path() const;
+
+    /** @name Words of a line that was taken */
+    //@{
+    long long
+    to_integer(const std::string &word, const std::string &what) const;
+
+    double
+    to_number(const std::string &word, const std::string &what) const;
+    //@}
+
+  private:
+    void
+    skip_white_space();
+
+    const std::string &content_;
+    const std::string  path_;
+    std::size_t        position_ = 0;
+    unsigned int       line_     = 1;
+  };
+
+  /** Shapes of elements, whatever a format calls them. */
+  enum class ElementShape
+  {
+    point,
+    line,
+    triangle,
+    quadrilateral,
+    solid,
+    other
+  };
+
+  struct ElementKind
+  {
+    ElementShape shape   = ElementShape::other;
+    unsigned int n_nodes = 0;
+    /** What the format calls it, for messages. */
+    std::string name = {};
+  };
+
+  /** Collects what a reader finds, with the numbers of the file. */
+  class MeshBuilder
+  {
+  public:
+    explicit MeshBuilder(const MeshText &text);
+
+    void
+    add_node(const long long number, const Point<3> &position);
+
+    /**
+     * @param nodes numbers of the nodes: corners counterclockwise, then the
+     *        middles of the sides from the first side on, then the centre.
+     *        Points are left out, solid cells refused.
+     */
+    void
+    add_element(const long long               number,
+                const ElementKind            &kind,
+                const std::vector<long long> &nodes,
+                const std::string            &group);
+
+    void
+    add_node_set(const std::string &name, const std::vector<long long> &nodes);
+
+    /** Put the element @p number into a group. */
+    void
+    set_group(const long long number, const std::string &group);
+
+    /** The mesh; nodes may be added after the elements that use them. */
+    MeshFile
+    finish();
+
+  private:
+    unsigned int
+    node_index(const long long number, const std::string &user) const;
+
+    struct RawElement
+    {
+      long long              number;
+      ElementKind            kind;
+      std::vector<long long> nodes;
+      std::string            group;
+    };
+
+    const MeshText                             &text_;
+    MeshFile                                    mesh_;
+    std::unordered_map<long long, unsigned int> node_indices_;
+    std::vector<RawElement>                     elements_;
+    std::unordered_map<long long, std::size_t>  element_indices_;
+    std::vector<std::pair<std::string, std::vector<long long>>> node_sets_;
+  };
+
+  /** @name Readers of one format each */
+  //@{
+  MeshFile
+  read_gmsh_mesh(MeshText &text);
+
+  MeshFile
+  read_vtk_mesh(MeshText &text);
+
+  MeshFile
+  read_abaqus_mesh(MeshText &text);
+
+  MeshFile
+  read_ucd_mesh(MeshText &text);
+  //@}
+} // namespace Nacre
+
+#endif

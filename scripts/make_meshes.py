@@ -1,0 +1,295 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Make the mesh files of prm/meshes.
+
+  make_meshes.py           write them
+  make_meshes.py --check   compare them with what would be written
+  make_meshes.py --folder FOLDER [--cells N]
+                           write them elsewhere, the roofs with N x N cells
+
+A quarter of the Scordelis-Lo roof, x = (R sin u, v, R cos u), 0 <= u <= 40
+degrees, 0 <= v <= L/2, in several formats, and a strip folded twice.
+"""
+
+import argparse
+import math
+import pathlib
+import sys
+
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "prm" / "meshes"
+RADIUS, LENGTH, ANGLE = 25., 50., 40.
+# gmsh's type by the number of nodes of cells and of lines
+GMSH_CELLS = {3: 2, 6: 9, 4: 3, 8: 16, 9: 10}
+GMSH_LINES = {2: 1, 3: 8}
+VTK_CELLS = {3: 5, 6: 22, 4: 9, 8: 23, 9: 28}
+VTK_LINES = {2: 3, 3: 21}
+
+
+class Mesh:
+    """Nodes, cells and boundary lines; nodes are numbered from 1.
+
+    Cells have their corners counterclockwise, then the middles of the sides
+    from the first side on, then the centre: the order of all formats.
+    """
+
+    def __init__(self):
+        self.nodes = []
+        self.cells = []           # (group, nodes)
+        self.lines = []           # (group, nodes)
+        self.cell_groups = []     # names
+        self.line_groups = []
+
+
+def group(names, name):
+    if name not in names:
+        names.append(name)
+    return names.index(name) + 1
+
+
+def grid(lines_u, lines_v, position, edges, n_nodes, region=lambda i, j: None):
+    """A mesh over a rectangle with mesh lines u and v.
+
+    edges: names of u = begin, u = end, v = begin, v = end; None: no group.
+    region: the name of the group of the cell (i, j).
+    """
+    second = n_nodes > 4
+    step = 2 if second else 1
+
+    def halves(lines):
+        if not second:
+            return list(lines)
+        result = [lines[0]]
+        for a, b in zip(lines, lines[1:]):
+            result += [(a + b) / 2, b]
+        return result
+
+    u, v = halves(lines_u), halves(lines_v)
+    mesh, number = Mesh(), {}
+    for j, v_j in enumerate(v):
+        for i, u_i in enumerate(u):
+            if n_nodes == 8 and i % 2 and j % 2:
+                continue
+            mesh.nodes.append(position(u_i, v_j))
+            number[i, j] = len(mesh.nodes)
+
+    corners = [(0, 0), (step, 0), (step, step), (0, step)]
+    middles = [(1, 0), (2, 1), (1, 2), (0, 1)] if second else []
+    centre = [(1, 1)] if n_nodes == 9 else []
+    for j in range(0, len(v) - 1, step):
+        for i in range(0, len(u) - 1, step):
+            name = region(i // step, j // step)
+            mesh.cells.append((name and group(mesh.cell_groups, name) or 0,
+                               [number[i + a, j + b]
+                                for a, b in corners + middles + centre]))
+
+    def add_line(name, points):
+        if name:
+            ends = [points[0], points[-1]] + points[1:-1]
+            mesh.lines.append((group(mesh.line_groups, name),
+                               [number[point] for point in ends]))
+
+    last_u, last_v = len(u) - 1, len(v) - 1
+    for j in range(0, last_v, step):
+        for name, i in (edges[0], 0), (edges[1], last_u):
+            add_line(name, [(i, j + k) for k in range(step + 1)])
+    for i in range(0, last_u, step):
+        for name, j in (edges[2], 0), (edges[3], last_v):
+            add_line(name, [(i + k, j) for k in range(step + 1)])
+    return mesh
+
+
+def triangles(mesh):
+    """Every 9-node cell cut along a diagonal into two 6-node triangles."""
+    result = Mesh()
+    result.nodes, result.lines = mesh.nodes, mesh.lines
+    result.cell_groups = mesh.cell_groups
+    result.line_groups = mesh.line_groups
+    for name, (a, b, c, d, ab, bc, cd, da, centre) in mesh.cells:
+        result.cells += [(name, [a, b, c, ab, bc, centre]),
+                         (name, [a, c, d, centre, cd, da])]
+    return result
+
+
+def text(numbers):
+    """Doubles with all of their digits."""
+    return " ".join(repr(number) for number in numbers)
+
+
+# --- formats ------------------------------------------------------------------
+def gmsh_names(mesh):
+    names = [(1, i, name) for i, name in enumerate(mesh.line_groups, 1)]
+    names += [(2, i, name) for i, name in enumerate(mesh.cell_groups, 1)]
+    return (["$PhysicalNames", str(len(names))] +
+            [f'{dim} {i} "{name}"' for dim, i, name in names] +
+            ["$EndPhysicalNames"])
+
+
+def gmsh_2(mesh):
+    out = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"] + gmsh_names(mesh)
+    out += ["$Nodes", str(len(mesh.nodes))]
+    out += [f"{i} {text(x)}" for i, x in enumerate(mesh.nodes, 1)]
+    out += ["$EndNodes", "$Elements", str(len(mesh.lines) + len(mesh.cells))]
+    elements = [(GMSH_LINES, line) for line in mesh.lines]
+    elements += [(GMSH_CELLS, cell) for cell in mesh.cells]
+    for i, (types, (number, nodes)) in enumerate(elements, 1):
+        # type, two tags: the group and the geometric entity
+        out.append(f"{i} {types[len(nodes)]} 2 {number} {max(number, 1)} " +
+                   " ".join(map(str, nodes)))
+    return out + ["$EndElements"]
+
+
+def gmsh_4(mesh):
+    def bounds(nodes):
+        points = [mesh.nodes[i - 1] for i in nodes]
+        return text([min(x[c] for x in points) for c in range(3)] +
+                    [max(x[c] for x in points) for c in range(3)])
+
+    blocks = {}                  # (dimension, entity) -> list of nodes
+    for dim, elements in (1, mesh.lines), (2, mesh.cells):
+        for number, nodes in elements:
+            blocks.setdefault((dim, number), []).append(nodes)
+    n_nodes = len(mesh.nodes)
+    out = ["$MeshFormat", "4.1 0 8", "$EndMeshFormat"] + gmsh_names(mesh)
+    counts = [sum(d == dim for d, _ in blocks) for dim in (1, 2)]
+    out += ["$Entities", f"0 {counts[0]} {counts[1]} 0"]
+    for (dim, number), lists in sorted(blocks.items()):
+        groups = f"1 {number}" if number else "0"
+        out.append(f"{number or 1} {bounds(sum(lists, []))} {groups} 0")
+    out += ["$EndEntities", "$Nodes", f"1 {n_nodes} 1 {n_nodes}",
+            f"2 1 0 {n_nodes}"]
+    out += [str(i) for i in range(1, n_nodes + 1)]
+    out += [text(x) for x in mesh.nodes]
+    n_elements = len(mesh.lines) + len(mesh.cells)
+    out += ["$EndNodes", "$Elements",
+            f"{len(blocks)} {n_elements} 1 {n_elements}"]
+    i = 0
+    for (dim, number), lists in sorted(blocks.items()):
+        types = GMSH_LINES if dim == 1 else GMSH_CELLS
+        out.append(f"{dim} {number or 1} {types[len(lists[0])]} {len(lists)}")
+        for nodes in lists:
+            i += 1
+            out.append(f"{i} " + " ".join(map(str, nodes)))
+    return out + ["$EndElements"]
+
+
+def vtk(mesh, title):
+    elements = mesh.lines + mesh.cells
+    types = ([VTK_LINES[len(nodes)] for _, nodes in mesh.lines] +
+             [VTK_CELLS[len(nodes)] for _, nodes in mesh.cells])
+    out = ["# vtk DataFile Version 3.0", title, "ASCII",
+           "DATASET UNSTRUCTURED_GRID", f"POINTS {len(mesh.nodes)} double"]
+    out += [text(x) for x in mesh.nodes]
+    out.append(f"CELLS {len(elements)} "
+               f"{sum(1 + len(nodes) for _, nodes in elements)}")
+    out += [" ".join(map(str, [len(nodes)] + [i - 1 for i in nodes]))
+            for _, nodes in elements]
+    out += [f"CELL_TYPES {len(elements)}"] + list(map(str, types))
+    numbers = [number for number, _ in mesh.lines] + [0] * len(mesh.cells)
+    out += [f"CELL_DATA {len(elements)}", "SCALARS MaterialID int 1",
+            "LOOKUP_TABLE default"] + list(map(str, numbers))
+    return out
+
+
+def ucd(mesh, title):
+    out = [f"# {title}",
+           f"{len(mesh.nodes)} {len(mesh.lines) + len(mesh.cells)} 0 0 0"]
+    out += [f"{i} {text(x)}" for i, x in enumerate(mesh.nodes, 1)]
+    elements = [(number, "line", nodes) for number, nodes in mesh.lines]
+    elements += [(0, "quad", nodes) for _, nodes in mesh.cells]
+    out += [f"{i} {number} {name} " + " ".join(map(str, nodes))
+            for i, (number, name, nodes) in enumerate(elements, 1)]
+    return out
+
+
+def abaqus(mesh, title, kind):
+    """Edges as sets of nodes, as a preprocessor writes them."""
+    out = ["*HEADING", title, "*NODE"]
+    out += [f"{i}, " + ", ".join(map(repr, x))
+            for i, x in enumerate(mesh.nodes, 1)]
+    out.append(f"*ELEMENT, TYPE={kind}, ELSET={mesh.cell_groups[0]}")
+    out += [f"{i}, " + ", ".join(map(str, nodes))
+            for i, (_, nodes) in enumerate(mesh.cells, 1)]
+    for number, name in enumerate(mesh.line_groups, 1):
+        nodes = sorted({i for k, line in mesh.lines if k == number
+                        for i in line})
+        out.append(f"*NSET, NSET={name}")
+        out += [", ".join(map(str, nodes[i:i + 10]))
+                for i in range(0, len(nodes), 10)]
+    return out
+
+
+# --- meshes -------------------------------------------------------------------
+def roof(n_cells, n_nodes):
+    def position(u, v):
+        angle = u * (math.pi / 180.)
+        return (RADIUS * math.sin(angle), v, RADIUS * math.cos(angle))
+
+    def lines(end):
+        return [(1. - i / n_cells) * 0. + i / n_cells * end
+                for i in range(n_cells + 1)]
+
+    return grid(lines(ANGLE), lines(LENGTH / 2), position,
+                ("crown", "eaves", "end", "middle"), n_nodes,
+                lambda i, j: "roof")
+
+
+def folded_strip():
+    """Legs of lengths 2, 1, 1: along x, up, and back along -x."""
+    def position(u, v):
+        return (min(u, 2.) - max(u - 3., 0.), v, min(max(u - 2., 0.), 1.))
+
+    return grid([i / 2 for i in range(9)], [0., 0.25],
+                position, ("clamp", "tip", None, None), 4,
+                lambda i, j: "base" if i < 4 else "wall" if i < 6 else "lid")
+
+
+def files(n_cells):
+    title = "A quarter of the Scordelis-Lo roof"
+    q9, q8 = roof(n_cells, 9), roof(n_cells, 8)
+    return {"roof_v2.msh": gmsh_2(q9),
+            "roof_v4.msh": gmsh_4(q9),
+            "roof_8_nodes.msh": gmsh_2(q8),
+            "roof.vtk": vtk(q9, title),
+            "roof_abaqus.inp": abaqus(q8, title, "S8R"),
+            "roof.ucd": ucd(q8, title),
+            "roof_first_order.msh": gmsh_4(roof(n_cells, 4)),
+            "roof_triangles.msh": gmsh_2(triangles(q9)),
+            "strip.msh": gmsh_4(folded_strip())}
+
+
+def agree(old, new):
+    """Equal but for the last digits: sines differ between machines."""
+    old_words, new_words = old.split(), new.split()
+    if len(old_words) != len(new_words):
+        return False
+    for a, b in zip(old_words, new_words):
+        if a != b:
+            try:
+                if abs(float(a.strip(",")) - float(b.strip(","))) > 1e-12:
+                    return False
+            except ValueError:
+                return False
+    return True
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--folder", type=pathlib.Path, default=FOLDER)
+    parser.add_argument("--cells", type=int, default=4)
+    arguments = parser.parse_args()
+    wrong = 0
+    for name, lines in files(arguments.cells).items():
+        path, content = arguments.folder / name, "\n".join(lines) + "\n"
+        if not arguments.check:
+            path.write_text(content, encoding="utf-8")
+        elif not path.exists() or not agree(path.read_text(encoding="utf-8"),
+                                            content):
+            print(f"{path} isn't what make_meshes.py makes")
+            wrong += 1
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/problem/coarse_cell.h>
+#include <nacre/problem/mesh_file.h>
+#include <nacre/problem/mesh_reader.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <cctype>
+#include <sstream>
+
+namespace Nacre
+{
+  std::string
+  MeshFile::describe_node(const unsigned int node) const
+  {
+    std::ostringstream text;
+    text << "node " << node_numbers[node] << " at (" << nodes[node][0] << ", "
+         << nodes[node][1] << ", " << nodes[node][2] << ')';
+    return text.str();
+  }
+
+
+  std::string
+  MeshFile::describe_cell(const unsigned int cell) const
+  {
+    return "cell " + std::to_string(cells[cell].number);
+  }
+
+
+  unsigned int
+  MeshFile::n_corners(const unsigned int cell) const
+  {
+    const auto n = cells[cell].nodes.size();
+    return n == 3 || n == 6 ? 3 : 4;
+  }
+
+
+  std::vector<Point<3>>
+  MeshFile::points(const unsigned int cell) const
+  {
+    std::vector<Point<3>> result;
+    for (const unsigned int node : cells[cell].nodes)
+      result.push_back(nodes[node]);
+    if (result.size() == 8)
+      result.push_back(CoarseCell::serendipity_centre(result));
+    return result;
+  }
+
+
+  namespace
+  {
+    bool
+    begins_with(const std::string &text, const std::string &begin)
+    {
+      return text.compare(0, begin.size(), begin) == 0;
+    }
+
+    /** UCD files begin with comments, then five counts. */
+    bool
+    looks_like_ucd(const std::string &content)
+    {
+      std::istringstream in(content);
+      std::string        line;
+      while (std::getline(in, line))
+        {
+          std::istringstream words(line);
+          std::string        word;
+          unsigned int       n_words = 0;
+          bool               digits  = true;
+          while (words >> word)
+            {
+              if (n_words == 0 && word[0] == '#')
+                break;
+              ++n_words;
+              for (const char c : word)
+                digits =
+                  digits && std::isdigit(static_cast<unsigned char>(c)) != 0;
+            }
+          if (n_words > 0)
+            return n_words == 5 && digits;
+        }
+      return false;
+    }
+  } // namespace
+
+
+  MeshFile
+  read_mesh(const std::string &content, const std::string &path)
+  {
+    MeshText    text(content, path);
+    const bool  empty = text.at_end();
+    std::string first = text.peek_line().substr(0, 60);
+    AssertThrow(!empty, ExcMessage("The mesh file '" + path + "' is empty."));
+    if (begins_with(first, "$"))
+      return read_gmsh_mesh(text);
+    if (begins_with(first, "# vtk"))
+      return read_vtk_mesh(text);
+    if (begins_with(first, "*"))
+      return read_abaqus_mesh(text);
+    if (looks_like_ucd(content))
+      return read_ucd_mesh(text);
+
+    for (char &c : first)
+      if (std::isprint(static_cast<unsigned char>(c)) == 0)
+        c = '?';
+    AssertThrow(false,
+                ExcMessage(
+                  "The file '" + path +
+                  "' isn't a mesh of a known format; it begins with '" + first +
+                  "'. Known, as text: gmsh .msh 2.2 and 4.1 ($MeshFormat), "
+                  "legacy VTK (# vtk DataFile), Abaqus .inp (*HEADING, *NODE), "
+                  "UCD (five counts)."));
+    return {};
+  }
+} // namespace Nacre

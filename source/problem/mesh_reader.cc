@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+#include <nacre/problem/mesh_reader.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+
+namespace Nacre
+{
+  namespace
+  {
+    bool
+    is_space(const char c)
+    {
+      return std::isspace(static_cast<unsigned char>(c)) != 0;
+    }
+
+    /** What the shells of ours can't be made of, in plain words. */
+    std::string
+    refusal(const ElementKind &kind)
+    {
+      if (kind.shape == ElementShape::solid)
+        return "is a solid (" + kind.name +
+               "); shells need surface cells: triangles or quadrilaterals. "
+               "Save the surface only";
+      return "is of the type " + kind.name +
+             "; known are lines, triangles with 3 or 6 nodes and "
+             "quadrilaterals with 4, 8 or 9";
+    }
+
+    bool
+    is_known(const ElementKind &kind)
+    {
+      switch (kind.shape)
+        {
+          case ElementShape::point:
+            return true;
+          case ElementShape::line:
+            return kind.n_nodes == 2 || kind.n_nodes == 3;
+          case ElementShape::triangle:
+            return kind.n_nodes == 3 || kind.n_nodes == 6;
+          case ElementShape::quadrilateral:
+            return kind.n_nodes == 4 || kind.n_nodes == 8 || kind.n_nodes == 9;
+          default:
+            return false;
+        }
+    }
+
+    /** From counterclockwise to the order of CoarseCell. */
+    const std::vector<unsigned int> &
+    node_order(const ElementShape shape)
+    {
+      static const std::vector<unsigned int> as_it_is = {0, 1, 2, 3, 4, 5};
+      static const std::vector<unsigned int> quadrilateral =
+        {0, 1, 3, 2, 7, 5, 4, 6, 8};
+      return shape == ElementShape::quadrilateral ? quadrilateral : as_it_is;
+    }
+  } // namespace
+
+
+  MeshText::MeshText(const std::string &content, const std::string &path)
+    : content_(content)
+    , path_(path)
+  {}
+
+
+  void
+  MeshText::skip_white_space()
+  {
+    while (position_ < content_.size() && is_space(content_[position_]))
+      if (content_[position_++] == '\n')
+        ++line_;
+  }
+
+
+  bool
+  MeshText::at_end()
+  {
+    skip_white_space();
+    return position_ == content_.size();
+  }
+
+
+  bool
+  MeshText::has_line() const
+  {
+    return position_ < content_.size();
+  }
+
+
+  std::string
+  MeshText::line(const std::string &what)
+  {
+    if (!has_line())
+      fail("the file ends where " + what + " should be: it is truncated.");
+    const auto        end = content_.find('\n', position_);
+    const std::string text =
+      content_.substr(position_,
+                      end == std::string::npos ? end : end - position_);
+    position_ = end == std::string::npos ? content_.size() : end + 1;
+    if (end != std::string::npos)
+      ++line_;
+    return Text::trim(text);
+  }
+
+
+  std::string
+  MeshText::peek_line()
+  {
+    skip_white_space();
+    const auto end = content_.find('\n', position_);
+    return Text::trim(
+      content_.substr(position_,
+                      end == std::string::npos ? end : end - position_));
+  }
+
+
+  std::string
+  MeshText::word(const std::string &what)
+  {
+    if (at_end())
+      fail("the file ends where " + what + " should be: it is truncated.");
+    const auto begin = position_;
+    while (position_ < content_.size() && !is_space(content_[position_]))
+      ++position_;
+    return content_.substr(begin, position_ - begin);
+  }
+
+
+  long long
+  MeshText::to_integer(const std::string &word, const std::string &what) const
+  {
+    char *end              = nullptr;
+    errno                  = 0;
+    const long long result = std::strtoll(word.c_str(), &end, 10);
+    if (word.empty() || *end != '\0' || errno != 0)
+      fail("found '" + word + "' where " + what +
+           ", a whole number, should be.");
+    return result;
+  }
+
+
+  double
+  MeshText::to_number(const std::string &word, const std::string &what) const
+  {
+    // Fortran writes 1.0D+00.
+    std::string text = word;
+    for (char &c : text)
+      c = (c == 'D' || c == 'd') ? 'e' : c;
+    char        *end    = nullptr;
+    const double result = std::strtod(text.c_str(), &end);
+    if (word.empty() || *end != '\0')
+      fail("found '" + word + "' where " + what + ", a number, should be.");
+    return result;
+  }
+
+
+  long long
+  MeshText::integer(const std::string &what)
+  {
+    return to_integer(word(what), what);
+  }
+
+
+  std::size_t
+  MeshText::count(const std::string &what)
+  {
+    const long long result = integer(what);
+    if (result < 0)
+      fail(what + " is " + std::to_string(result) +
+           "; it can't be less than zero.");
+    return result;
+  }
+
+
+  double
+  MeshText::number(const std::string &what)
+  {
+    return to_number(word(what), what);
+  }
+
+
+  Point<3>
+  MeshText::point(const std::string &what)
+  {
+    Point<3> result;
+    for (unsigned int c = 0; c < 3; ++c)
+      result[c] = number(what);
+    return result;
+  }
+
+
+  void
+  MeshText::fail(const std::string &text) const
+  {
+    throw StandardExceptions::ExcMessage("The mesh file '" + path_ +
+                                         "', line " + std::to_string(line_) +
+                                         ": " + text);
+  }
+
+
+  const std::string &
+  MeshText::path() const
+  {
+    return path_;
+  }
+
+
+  MeshBuilder::MeshBuilder(const MeshText &text)
+    : text_(text)
+  {
+    mesh_.path = text.path();
+  }
+
+
+  void
+  MeshBuilder::add_node(const long long number, const Point<3> &position)
+  {
+    const std::string node = "the node " + std::to_string(number);
+    for (unsigned int c = 0; c < 3; ++c)
+      if (!std::isfinite(position[c]))
+        text_.fail(node + " has the " + "xyz"[c] + " coordinate " +
+                   std::to_string(position[c]) + "; it must be finite.");
+    if (!node_indices_.emplace(number, mesh_.nodes.size()).second)
+      text_.fail(node + " stands twice.");
+    mesh_.nodes.push_back(position);
+    mesh_.node_numbers.push_back(number);
+  }
+
+
+  void
+  MeshBuilder::add_element(const long long               number,
+                           const ElementKind            &kind,
+                           const std::vector<long long> &nodes,
+                           const std::string            &group)
+  {
+    const std::string element = "the element " + std::to_string(number) + " ";
+    if (!is_known(kind))
+      text_.fail(element + refusal(kind) + ".");
+    if (kind.shape == ElementShape::point)
+      return;
+    if (nodes.size() != kind.n_nodes)
+      text_.fail(element + "has " + std::to_string(nodes.size()) +
+                 " nodes; its type " + kind.name + " has " +
+                 std::to_string(kind.n_nodes) + ".");
+    if (!element_indices_.emplace(number, elements_.size()).second)
+      text_.fail(element + "stands twice.");
+    elements_.push_back({number, kind, nodes, group});
+  }
+
+
+  void
+  MeshBuilder::add_node_set(const std::string            &name,
+                            const std::vector<long long> &nodes)
+  {
+    node_sets_.emplace_back(name, nodes);
+  }
+
+
+  void
+  MeshBuilder::set_group(const long long number, const std::string &group)
+  {
+    const auto found = element_indices_.find(number);
+    if (found == element_indices_.end())
+      text_.fail("the group '" + group + "' holds the element " +
+                 std::to_string(number) + ", which the file doesn't define.");
+    std::string &old = elements_[found->second].group;
+    if (!old.empty() && old != group)
+      text_.fail("the element " + std::to_string(number) +
+                 " is in two groups, '" + old + "' and '" + group +
+                 "'; one is possible.");
+    old = group;
+  }
+
+
+  unsigned int
+  MeshBuilder::node_index(const long long number, const std::string &user) const
+  {
+    const auto found = node_indices_.find(number);
+    AssertThrow(found != node_indices_.end(),
+                ExcMessage("The mesh file '" + mesh_.path + "': " + user +
+                           " refers to the node " + std::to_string(number) +
+                           ", which the file doesn't define."));
+    return found->second;
+  }
+
+
+  MeshFile
+  MeshBuilder::finish()
+  {
+    for (const RawElement &raw : elements_)
+      {
+        MeshFile::Element element;
+        element.number    = raw.number;
+        element.group     = raw.group;
+        const auto &order = node_order(raw.kind.shape);
+        for (unsigned int i = 0; i < raw.nodes.size(); ++i)
+          element.nodes.push_back(
+            node_index(raw.nodes[order[i]],
+                       "the element " + std::to_string(raw.number)));
+        (raw.kind.shape == ElementShape::line ? mesh_.lines : mesh_.cells)
+          .push_back(std::move(element));
+      }
+    for (const auto &[name, numbers] : node_sets_)
+      {
+        MeshFile::NodeSet set;
+        set.name = name;
+        for (const long long number : numbers)
+          set.nodes.push_back(
+            node_index(number, "the set of nodes '" + name + "'"));
+        mesh_.node_sets.push_back(std::move(set));
+      }
+    return std::move(mesh_);
+  }
+} // namespace Nacre

@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""A roof read from mesh files equals the built-in one; where files are looked
+for; the parameters that were used repeat the run.
+
+  mesh_files.py NACRE PRM-FOLDER
+"""
+
+import csv
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOLERANCE = 1e-10
+
+
+class Runs:
+    """Runs of one program in one folder, each with an output of its own."""
+
+    def __init__(self, nacre, folder):
+        self.nacre, self.folder, self.n = nacre, folder, 0
+
+    def row(self, prm, *overrides, cwd=None):
+        """The last row of the table without seconds, as numbers."""
+        self.n += 1
+        output = self.folder / f"output{self.n}"
+        command = [self.nacre, str(prm), "--quiet"]
+        for override in (f"Study/Output folder={output}", "Study/Name=run",
+                         "Study/Write VTU=false", *overrides):
+            command += ["--set", override]
+        subprocess.run(command, cwd=cwd or self.folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        with open(output / "run.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        return {name: float(rows[-1][name]) for name in ("dofs", "w", "U")}
+
+
+def difference(a, b):
+    assert a["dofs"] == b["dofs"], (a, b)
+    return max(abs(a[name] / b[name] - 1) for name in ("w", "U"))
+
+
+def check(name, value, holds):
+    print(f"{'OK  ' if holds else 'FAIL'} {name}: {value:.1e}", flush=True)
+    return [] if holds else [name]
+
+
+def compare_formats(runs, prm):
+    wrong = []
+    built_in = runs.row(prm / "benchmarks" / "scordelis_lo.prm",
+                        "Mid-surface/Subdivisions=4", "Study/Degrees=2",
+                        "Study/Refinements=0")
+    file_name = "Mid-surface/file/File name="
+    for name, overrides in (("roof_gmsh", []),
+                            ("roof_gmsh", [file_name + "roof_v2.msh"]),
+                            ("roof_gmsh", [file_name + "roof_8_nodes.msh"]),
+                            ("roof_vtk", []), ("roof_ucd", []),
+                            ("roof_abaqus", [])):
+        found = difference(runs.row(prm / "meshes" / f"{name}.prm", *overrides),
+                           built_in)
+        wrong += check(" ".join([name, *overrides]), found, found < TOLERANCE)
+    # the test of the test: another surface of the same cells
+    flat = difference(runs.row(prm / "meshes" / "roof_gmsh.prm",
+                               "Mid-surface/file/Curvature=flat"), built_in)
+    wrong += check("flat is different", flat, flat > 1e-2)
+    return wrong
+
+
+def vtk_5(text):
+    """The same VTK file as VTK 9 writes it: offsets, and METADATA."""
+    lines = text.splitlines()
+    cells = next(i for i, line in enumerate(lines) if line.startswith("CELLS"))
+    n = int(lines[cells].split()[1])
+    lists = [line.split()[1:] for line in lines[cells + 1:cells + 1 + n]]
+    offsets = [0]
+    for nodes in lists:
+        offsets.append(offsets[-1] + len(nodes))
+    metadata = ["METADATA", "INFORMATION 1",
+                "NAME L2_NORM_RANGE LOCATION vtkDataArray", "DATA 2 0 35.5", ""]
+    return "\n".join(
+        ["# vtk DataFile Version 5.1"] + lines[1:cells] + metadata +
+        [f"CELLS {n + 1} {offsets[-1]}", "OFFSETS vtktypeint64"] +
+        [str(i) for i in offsets] + ["CONNECTIVITY vtktypeint64"] +
+        [" ".join(nodes) for nodes in lists] + lines[cells + 1 + n:] +
+        ["VECTORS v double"] + ["0 0 nan"] * n + metadata +
+        ["POINT_DATA 81", "SCALARS MaterialID int", "LOOKUP_TABLE default"] +
+        ["7"] * 81 + [""])
+
+
+def compare_vtk_5(runs, prm):
+    path = runs.folder / "roof_5.vtk"
+    path.write_text(vtk_5((prm / "meshes" / "roof.vtk").read_text()))
+    case = prm / "meshes" / "roof_vtk.prm"
+    found = difference(runs.row(case, f"Mid-surface/file/File name={path}"),
+                       runs.row(case))
+    return check("VTK 5.1", found, found < TOLERANCE)
+
+
+def compare_strip(runs, prm):
+    """A folded strip of one section, from a file and built in."""
+    common = ["Study/Degrees=2", "Study/Refinements=1", "Section/Thickness=0.02"]
+    file = runs.row(prm / "meshes" / "strip.prm", *common, "Section/Regions=")
+    thick = runs.row(prm / "meshes" / "strip.prm", *common,
+                     "Section/Regions=wall: h = 0.02; lid: E = 1e6")
+    regions = difference(file, thick)
+    wrong = check("regions that say the same", regions, regions < TOLERANCE)
+    split = runs.row(prm / "meshes" / "strip.prm", *common,
+                     "Section/Regions=wall: h = 0.03")
+    wrong += check("another region", split["w"] / file["w"],
+                   split["w"] / file["w"] < 0.8)
+    return wrong
+
+
+def check_folders(runs, prm):
+    """Beside the parameter file first, then in the current folder."""
+    wrong = []
+    inputs, work = runs.folder / "my inputs", runs.folder / "work"
+    for folder in inputs, work:
+        (folder / "sub").mkdir(parents=True)
+    shutil.copy(prm / "meshes" / "roof_gmsh.prm", inputs / "a.prm")
+    shutil.copy(prm / "meshes" / "roof_v4.msh", inputs / "sub" / "roof.msh")
+    shutil.copy(prm / "meshes" / "roof_v4.msh", work / "here.msh")
+    (work / "sub" / "roof.msh").write_text("not this one")
+    file_name = "Mid-surface/file/File name="
+    beside = runs.row(inputs / "a.prm", file_name + "sub/roof.msh", cwd=work)
+    here = runs.row(inputs / "a.prm", file_name + "here.msh", cwd=work)
+    used = runs.folder / f"output{runs.n}" / "run.used.prm"
+    again = runs.row(used, cwd=inputs)
+    for name, row in ("current folder", here), ("used.prm", again):
+        found = difference(row, beside)
+        wrong += check(name, found, found == 0.)
+    return wrong
+
+
+def main():
+    nacre, prm = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
+    with tempfile.TemporaryDirectory() as folder:
+        runs = Runs(str(nacre), pathlib.Path(folder))
+        wrong = compare_formats(runs, prm)
+        wrong += compare_vtk_5(runs, prm)
+        wrong += compare_strip(runs, prm)
+        wrong += check_folders(runs, prm)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
