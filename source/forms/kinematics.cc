@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/forms/corotational_kinematics.h>
 #include <nacre/forms/linear_kinematics.h>
 
 namespace Nacre
@@ -16,6 +17,22 @@ namespace Nacre
   edge_form_names()
   {
     static const std::vector<std::string> names = {"hinge"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  kinematics_model_names()
+  {
+    static const std::vector<std::string> names = {"linear", "corotational"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  tangent_type_names()
+  {
+    static const std::vector<std::string> names = {"frozen",
+                                                   "symmetric",
+                                                   "consistent"};
     return names;
   }
 
@@ -35,6 +52,14 @@ namespace Nacre
                element.type != ElementType::lagrange ?
              element.reduced_quadrature() :
              element.full_quadrature();
+  }
+
+  bool
+  blends_integration(const Element       &element,
+                     const MembraneStrain membrane_strain)
+  {
+    return membrane_strain == MembraneStrain::reduced &&
+           element.type == ElementType::lagrange;
   }
 
   MembraneStrain
@@ -58,6 +83,11 @@ namespace Nacre
                   const SectionLaw        &section,
                   const KinematicsOptions &options)
   {
+    if (options.model == KinematicsModel::corotational)
+      return std::make_unique<CorotationalKinematics>(discretization,
+                                                      section,
+                                                      options.membrane_strain,
+                                                      options.tangent);
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

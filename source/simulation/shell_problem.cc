@@ -66,6 +66,21 @@ namespace Nacre
                   "frame, independent of creases.",
                   prm,
                   Patterns::Selection("hinge"));
+    add_parameter("Kinematics",
+                  kinematics_name_,
+                  "linear: small displacements; corotational: large rotations "
+                  "with small strains, in frames that turn with the material.",
+                  prm,
+                  Patterns::Selection("linear|corotational"));
+    add_parameter(
+      "Tangent",
+      tangent_name_,
+      "For co-rotational kinematics: consistent, the derivative of "
+      "the internal forces, of which the symmetric solver takes the "
+      "symmetric part; frozen, with the rotations held, which "
+      "needs many more iterations and may not converge.",
+      prm,
+      Patterns::Selection("frozen|consistent"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -123,6 +138,11 @@ namespace Nacre
         selected<MembraneStrain>(membrane_strain_names(),
                                  membrane_strain_name_);
     options.edge_form = selected<EdgeForm>(edge_form_names(), edge_form_name_);
+    options.model =
+      selected<KinematicsModel>(kinematics_model_names(), kinematics_name_);
+    // The direct solver reads one triangle of the matrix.
+    options.tangent =
+      tangent_name_ == "frozen" ? TangentType::frozen : TangentType::symmetric;
     return options;
   }
 
