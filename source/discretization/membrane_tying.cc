@@ -49,6 +49,23 @@ namespace Nacre
       tie_quadrilateral(element.degree, targets);
   }
 
+  MembraneTying
+  MembraneTying::untied(const std::vector<Point<dim>> &targets)
+  {
+    MembraneTying tying;
+    tying.points_ = targets;
+    tying.weights_.resize(3 * targets.size());
+    for (unsigned int q = 0; q < targets.size(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          Sample sample{q, {{0., 0., 0.}}};
+          sample.direction[v] = 1.;
+          tying.weights_[3 * q + v].emplace_back(tying.samples_.size(), 1.);
+          tying.samples_.push_back(sample);
+        }
+    return tying;
+  }
+
   void
   MembraneTying::tie_quadrilateral(const unsigned int             degree,
                                    const std::vector<Point<dim>> &targets)

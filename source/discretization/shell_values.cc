@@ -51,7 +51,9 @@ namespace Nacre
     : discretization_(discretization)
     , quadrature_(quadrature)
     , tied_(tied)
-    , tying_(discretization.element(), quadrature.get_points())
+    , tying_(tied ? MembraneTying(discretization.element(),
+                                  quadrature.get_points()) :
+                    MembraneTying::untied(quadrature.get_points()))
     , fe_nothing_(discretization.element().reference_cell())
     , fe_values_(discretization.mapping(),
                  fe_nothing_,
@@ -64,9 +66,10 @@ namespace Nacre
     , shapes_(discretization.scalar_fe(), quadrature.get_points())
     , tying_shapes_(discretization.scalar_fe(), tying_.points())
     , frames_(quadrature.size())
+    , tying_frames_(tied ? tying_.points().size() : 0)
     , membrane_rows_(3 * quadrature.size(), n_dofs())
     , bending_rows_(3 * quadrature.size(), n_dofs())
-    , tying_rows_(tying_.samples().size(), n_dofs())
+    , tying_rows_(tied ? tying_.samples().size() : 0, n_dofs())
   {}
 
   ShellCellValues::ShellCellValues(const ShellCellValues &other)
@@ -74,7 +77,7 @@ namespace Nacre
   {}
 
   void
-  ShellCellValues::reinit(
+  ShellCellValues::reinit_frames(
     const Triangulation<dim, spacedim>::cell_iterator &cell)
   {
     fe_values_.reinit(cell);
@@ -83,8 +86,21 @@ namespace Nacre
     if (tied_)
       {
         tying_fe_values_.reinit(cell);
-        fill_tied_membrane_rows();
+        for (unsigned int k = 0; k < tying_frames_.size(); ++k)
+          tying_frames_[k] =
+            make_surface_frame(tangent(tying_fe_values_.jacobian(k), 0),
+                               tangent(tying_fe_values_.jacobian(k), 1),
+                               {});
       }
+  }
+
+  void
+  ShellCellValues::reinit(
+    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  {
+    reinit_frames(cell);
+    if (tied_)
+      fill_tied_membrane_rows();
     else
       fill_membrane_rows();
     fill_bending_rows();
@@ -115,8 +131,7 @@ namespace Nacre
     for (unsigned int k = 0; k < tying_rows_.m(); ++k)
       {
         const auto &[point, direction] = tying_.samples()[k];
-        const auto a_1 = tangent(tying_fe_values_.jacobian(point), 0);
-        const auto a_2 = tangent(tying_fe_values_.jacobian(point), 1);
+        const auto &[a_1, a_2]         = tying_frames_[point].a_cov;
         for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
           {
             // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)

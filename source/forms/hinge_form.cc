@@ -26,8 +26,12 @@ namespace Nacre
     const double nu_1 = frame.a_con[0] * nu;
     const double nu_2 = frame.a_con[1] * nu;
 
-    t0        = frame.t0;
-    stiffness = dyad * H_nu;
+    t0               = frame.t0;
+    stiffness        = dyad * H_nu;
+    curvature_moment = 0.;
+    for (unsigned int v = 0; v < 3; ++v)
+      curvature_moment += sigma * (v < 2 ? 1. : 2.) * H_nu[v] *
+                          (frame.a_cov_derivatives[v] * frame.t0);
     rotation.resize(shapes.n_nodes());
     moment.resize(shapes.n_nodes());
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
@@ -40,6 +44,25 @@ namespace Nacre
                                                          dN,
                                                          shapes.hessian(q, a)));
       }
+  }
+
+  HingeFluxes
+  hinge_fluxes(const ShellEdgeValues &edge,
+               const unsigned int     q,
+               const double           stiffness,
+               const double           penalty)
+  {
+    // The mirror image of a boundary cell doubles the penalty.
+    const double factor =
+      edge.n_sides() == 2 ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
+    const double dx = edge.JxW(q);
+
+    HingeFluxes fluxes;
+    fluxes.penalty =
+      NACRE_MUTABLE(penalty_sign, 1., -1.) * factor * penalty * stiffness * dx;
+    fluxes.symmetry    = NACRE_MUTABLE(symmetry_sign, -1., 1.) * dx;
+    fluxes.consistency = NACRE_MUTABLE(consistency_sign, -1., 1.) * dx;
+    return fluxes;
   }
 
   void

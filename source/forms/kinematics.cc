@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/forms/averaged_normal_kinematics.h>
+#include <nacre/forms/corotational_kinematics.h>
 
 namespace Nacre
 {
@@ -16,6 +17,22 @@ namespace Nacre
   edge_form_names()
   {
     static const std::vector<std::string> names = {"hinge", "averaged normal"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  kinematics_model_names()
+  {
+    static const std::vector<std::string> names = {"linear", "corotational"};
+    return names;
+  }
+
+  const std::vector<std::string> &
+  tangent_type_names()
+  {
+    static const std::vector<std::string> names = {"frozen",
+                                                   "symmetric",
+                                                   "consistent"};
     return names;
   }
 
@@ -35,6 +52,14 @@ namespace Nacre
                element.type != ElementType::lagrange ?
              element.reduced_quadrature() :
              element.full_quadrature();
+  }
+
+  bool
+  blends_integration(const Element       &element,
+                     const MembraneStrain membrane_strain)
+  {
+    return membrane_strain == MembraneStrain::reduced &&
+           element.type == ElementType::lagrange;
   }
 
   MembraneStrain
@@ -63,6 +88,11 @@ namespace Nacre
         discretization,
         section,
         options.membrane_strain);
+    if (options.model == KinematicsModel::corotational)
+      return std::make_unique<CorotationalKinematics>(discretization,
+                                                      section,
+                                                      options.membrane_strain,
+                                                      options.tangent);
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

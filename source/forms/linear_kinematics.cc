@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/forms/linear_kinematics.h>
 
 namespace Nacre
@@ -16,8 +15,7 @@ namespace Nacre
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied)
   {
-    if (membrane_strain == MembraneStrain::reduced &&
-        discretization.element().type == ElementType::lagrange)
+    if (blends_integration(discretization.element(), membrane_strain))
       reduced_values_ = std::make_unique<ShellCellValues>(
         discretization,
         discretization.element().reduced_quadrature(),
@@ -30,34 +28,6 @@ namespace Nacre
     return std::make_unique<LinearKinematics>(discretization_,
                                               section_,
                                               membrane_strain_);
-  }
-
-  void
-  LinearKinematics::weigh(const ShellCellValues &values, const double factor)
-  {
-    membrane_stiffness_.resize(values.n_points());
-    bending_stiffness_.resize(values.n_points());
-    for (unsigned int q = 0; q < values.n_points(); ++q)
-      {
-        const auto stiffness =
-          section_.stiffness(values.frame(q), values.point(q));
-        membrane_stiffness_[q] = factor * values.JxW(q) * stiffness.membrane;
-        bending_stiffness_[q]  = values.JxW(q) * stiffness.bending;
-      }
-  }
-
-  double
-  LinearKinematics::full_integration_share() const
-  {
-    double area = 0., volume = 0.;
-    for (unsigned int q = 0; q < full_values_.n_points(); ++q)
-      {
-        area += full_values_.JxW(q);
-        volume +=
-          full_values_.JxW(q) * section_.thickness(full_values_.point(q));
-      }
-    const double thickness = volume / area;
-    return std::min(1., thickness * thickness / area);
   }
 
   double
@@ -114,50 +84,34 @@ namespace Nacre
   {
     full_values_.reinit(cell);
     const bool   reduced = (reduced_values_ != nullptr);
-    const double share   = reduced ? full_integration_share() : 1.;
+    const double share =
+      reduced ? full_integration_share(full_values_, section_) : 1.;
 
     // (32), (33)
-    weigh(full_values_, share);
+    stiffness_.reinit(full_values_, section_, share);
     terms.energies.membrane += add_strain_terms(full_values_.membrane_rows(),
-                                                membrane_stiffness_,
+                                                stiffness_.membrane,
                                                 u,
                                                 terms);
     terms.energies.bending += add_strain_terms(full_values_.bending_rows(),
-                                               bending_stiffness_,
+                                               stiffness_.bending,
                                                u,
                                                terms);
     if (reduced && share < 1.)
       {
         reduced_values_->reinit(cell);
-        weigh(*reduced_values_, 1. - share);
+        stiffness_.reinit(*reduced_values_, section_, 1. - share);
         terms.energies.membrane +=
           add_strain_terms(reduced_values_->membrane_rows(),
-                           membrane_stiffness_,
+                           stiffness_.membrane,
                            u,
                            terms);
       }
   }
 
-  LinearKinematics::Fluxes
-  LinearKinematics::fluxes(const ShellEdgeValues &edge,
-                           const unsigned int     q,
-                           const double           penalty) const
-  {
-    // The mirror image of a boundary cell doubles the penalty.
-    const double factor =
-      edge.n_sides() == 2 ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
-    const double dx = edge.JxW(q);
-
-    Fluxes fluxes;
-    fluxes.penalty = NACRE_MUTABLE(penalty_sign, 1., -1.) * factor * penalty *
-                     hinge_.stiffness() * dx;
-    fluxes.symmetry    = NACRE_MUTABLE(symmetry_sign, -1., 1.) * dx;
-    fluxes.consistency = NACRE_MUTABLE(consistency_sign, -1., 1.) * dx;
-    return fluxes;
-  }
-
   void
-  LinearKinematics::fill_edge_rows(const unsigned int q, const Fluxes &fluxes)
+  LinearKinematics::fill_edge_rows(const unsigned int q,
+                                   const HingeFluxes &fluxes)
   {
     const auto &jump     = hinge_.rotation_jump();
     const auto &moment   = hinge_.mean_moment();
@@ -175,7 +129,7 @@ namespace Nacre
   }
 
   void
-  LinearKinematics::add_edge_residual(const Fluxes         &fluxes,
+  LinearKinematics::add_edge_residual(const HingeFluxes    &fluxes,
                                       const double          rotation,
                                       const Vector<double> &u,
                                       LocalTerms           &terms) const
@@ -230,7 +184,7 @@ namespace Nacre
     for (unsigned int q = 0; q < n_points; ++q)
       {
         hinge_.reinit(edge, q, section_);
-        const Fluxes weights = fluxes(edge, q, penalty);
+        const auto weights = hinge_fluxes(edge, q, hinge_.stiffness(), penalty);
         if (terms.wants_tangent)
           fill_edge_rows(q, weights);
         add_edge_residual(weights, rotation[q], u, terms);

@@ -133,6 +133,7 @@ namespace Nacre
                                kinematics_options.membrane_strain),
                eta)
     , kinematics_(make_kinematics(discretization, section, kinematics_options))
+    , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
   {
     locate_point_forces();
     AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
@@ -215,7 +216,7 @@ namespace Nacre
       copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
         force = terms.residual;
         force *= -1.;
-        if (u == nullptr)
+        if (u == nullptr || !symmetrizes_)
           scatter.add(terms.tangent, force, dofs);
         else
           {

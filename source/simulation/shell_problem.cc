@@ -68,6 +68,21 @@ namespace Nacre
                   "surface is smooth, but dependent on the angle of a crease.",
                   prm,
                   Patterns::Selection("hinge|averaged normal"));
+    add_parameter("Kinematics",
+                  kinematics_name_,
+                  "linear: small displacements; corotational: large rotations "
+                  "with small strains, in frames that turn with the material.",
+                  prm,
+                  Patterns::Selection("linear|corotational"));
+    add_parameter(
+      "Tangent",
+      tangent_name_,
+      "For co-rotational kinematics: consistent, the derivative of "
+      "the internal forces, of which the symmetric solver takes the "
+      "symmetric part; frozen, with the rotations held, which "
+      "needs many more iterations and may not converge.",
+      prm,
+      Patterns::Selection("frozen|consistent"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -100,8 +115,17 @@ namespace Nacre
     loads_.prepare(midsurface_, constants_);
     exact_solution_.prepare(constants_);
     path_parameters_.prepare(constants_);
+    AssertThrow(kinematics_name_ == "linear" || edge_form_name_ == "hinge",
+                ExcMessage("Discretization/Edge form: co-rotational kinematics "
+                           "has the hinge form only; found '" +
+                           edge_form_name_ + "'."));
     if (is_linear())
       {
+        AssertThrow(kinematics_name_ == "linear",
+                    ExcMessage("Discretization/Kinematics: '" +
+                               kinematics_name_ +
+                               "' is nonlinear; choose 'Analysis/Type = "
+                               "static', relaxation or dynamic."));
         AssertThrow(!loads_.pressure_follows(),
                     ExcMessage("Loads/Pressure follows: a linear analysis "
                                "knows the undeformed surface only; choose "
@@ -142,6 +166,11 @@ namespace Nacre
         selected<MembraneStrain>(membrane_strain_names(),
                                  membrane_strain_name_);
     options.edge_form = selected<EdgeForm>(edge_form_names(), edge_form_name_);
+    options.model =
+      selected<KinematicsModel>(kinematics_model_names(), kinematics_name_);
+    // The direct solver reads one triangle of the matrix.
+    options.tangent =
+      tangent_name_ == "frozen" ? TangentType::frozen : TangentType::symmetric;
     return options;
   }
 

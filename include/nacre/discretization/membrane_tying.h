@@ -42,6 +42,10 @@ namespace Nacre
     MembraneTying(const Element                 &element,
                   const std::vector<Point<dim>> &targets);
 
+    /** Not tied: all components are sampled at the targets themselves. */
+    static MembraneTying
+    untied(const std::vector<Point<dim>> &targets);
+
     /** The sampling points in the reference cell. */
     const std::vector<Point<dim>> &
     points() const
@@ -63,6 +67,8 @@ namespace Nacre
     }
 
   private:
+    MembraneTying() = default;
+
     void
     tie_quadrilateral(const unsigned int             degree,
                       const std::vector<Point<dim>> &targets);

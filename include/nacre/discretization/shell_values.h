@@ -43,8 +43,13 @@ namespace Nacre
 
     ShellCellValues(const ShellCellValues &other);
 
+    /** Frames and the rows of the linear strains. */
     void
     reinit(const Triangulation<dim, spacedim>::cell_iterator &cell);
+
+    /** Frames only. */
+    void
+    reinit_frames(const Triangulation<dim, spacedim>::cell_iterator &cell);
 
     unsigned int
     n_points() const
@@ -92,6 +97,27 @@ namespace Nacre
       return discretization_.node_dofs()[spacedim * a + c];
     }
 
+    /** Where the membrane strain is sampled: at the points if untied. */
+    const MembraneTying &
+    tying() const
+    {
+      return tying_;
+    }
+
+    /** Shape functions at the tying points. */
+    const ShapeTable &
+    tying_shapes() const
+    {
+      return tying_shapes_;
+    }
+
+    /** Frame at the tying point @p k; no second derivatives if tied. */
+    const SurfaceFrame<> &
+    tying_frame(const unsigned int k) const
+    {
+      return tied_ ? tying_frames_[k] : frames_[k];
+    }
+
     /** Rows of the membrane strain, (3) or its tied interpolation. */
     const FullMatrix<double> &
     membrane_rows() const
@@ -127,6 +153,7 @@ namespace Nacre
     ShapeTable                tying_shapes_;
 
     std::vector<SurfaceFrame<>> frames_;
+    std::vector<SurfaceFrame<>> tying_frames_;
     FullMatrix<double>          membrane_rows_;
     FullMatrix<double>          bending_rows_;
     FullMatrix<double>          tying_rows_;

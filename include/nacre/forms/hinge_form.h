@@ -23,6 +23,8 @@ namespace Nacre
     Tensor<1, spacedim> t0;
     /** H_m(nu, nu, nu, nu): bending stiffness across the edge. */
     double stiffness = 0.;
+    /** H_m(nu, nu)^ab phi0,ab . t0, sigma included (force). */
+    double curvature_moment = 0.;
 
     /**
      * Fill for the point @p q of the @p side of @p edge, sigma included.
@@ -33,6 +35,29 @@ namespace Nacre
            const unsigned int     q,
            const SectionLaw      &section);
   };
+
+  /**
+   * Factors of the three terms at an edge point, quadrature weight included:
+   * penalty [[theta(u)]] [[theta(v)]] + symmetry {m_nn(v)} [[theta(u)]] +
+   * consistency [[theta(v)]] {m_nn(u)}.
+   */
+  struct HingeFluxes
+  {
+    double penalty;
+    double symmetry;
+    double consistency;
+  };
+
+  /**
+   * Those of the point @p q.
+   * @param stiffness D (force times length)
+   * @param penalty eta^e (1/length)
+   */
+  HingeFluxes
+  hinge_fluxes(const ShellEdgeValues &edge,
+               const unsigned int     q,
+               const double           stiffness,
+               const double           penalty);
 
   /**
    * [[theta]], {m_nn} of all dofs of an edge and D at one point:

@@ -38,6 +38,11 @@ namespace Nacre
   Quadrature<dim>
   cell_quadrature(const Element &element, const MembraneStrain membrane_strain);
 
+  /** Whether the membrane strain is integrated by two rules. */
+  bool
+  blends_integration(const Element       &element,
+                     const MembraneStrain membrane_strain);
+
   /** reduced for 8-node cells, tied for all others. */
   MembraneStrain
   default_membrane_strain(const ElementType element);

@@ -41,18 +41,55 @@ namespace Nacre
   const std::vector<std::string> &
   edge_form_names();
 
+  /** How strains follow from displacements. */
+  enum class KinematicsModel
+  {
+    /** Small displacements. */
+    linear,
+    /** Small strains in frames that turn with the material. */
+    corotational
+  };
+
+  /** Names of KinematicsModel in its order. */
+  const std::vector<std::string> &
+  kinematics_model_names();
+
+  /** The derivative of nonlinear internal forces and following loads. */
+  enum class TangentType
+  {
+    /** Rotations held: not the derivative, but symmetric, (47). */
+    frozen,
+    /** The symmetric part of the derivative, for symmetric solvers. */
+    symmetric,
+    /**
+     * The derivative: unsymmetric by 1e-4 to 1e-3 since the bending forces
+     * are no exact gradient. A solver that reads one triangle diverges.
+     */
+    consistent
+  };
+
+  /** Names of TangentType in its order. */
+  const std::vector<std::string> &
+  tangent_type_names();
+
   /** Which Kinematics make_kinematics() makes. */
   struct KinematicsOptions
   {
     KinematicsOptions(
-      const MembraneStrain membrane_strain = MembraneStrain::tied,
-      const EdgeForm       edge_form       = EdgeForm::hinge)
+      const MembraneStrain  membrane_strain = MembraneStrain::tied,
+      const EdgeForm        edge_form       = EdgeForm::hinge,
+      const KinematicsModel model           = KinematicsModel::linear,
+      const TangentType     tangent         = TangentType::symmetric)
       : membrane_strain(membrane_strain)
       , edge_form(edge_form)
+      , model(model)
+      , tangent(tangent)
     {}
 
-    MembraneStrain membrane_strain;
-    EdgeForm       edge_form;
+    MembraneStrain  membrane_strain;
+    EdgeForm        edge_form;
+    KinematicsModel model;
+    TangentType     tangent;
   };
 } // namespace Nacre
 

@@ -4,6 +4,7 @@
 #ifndef nacre_forms_linear_kinematics_h
 #define nacre_forms_linear_kinematics_h
 
+#include <nacre/forms/cell_stiffness.h>
 #include <nacre/forms/hinge_form.h>
 #include <nacre/forms/kinematics.h>
 
@@ -66,38 +67,12 @@ namespace Nacre
                      const Vector<double>             &u,
                      LocalTerms                       &terms);
 
-    /** Stiffness times weights at the points of @p values. */
-    void
-    weigh(const ShellCellValues &values, const double factor);
-
-    /** f of MembraneStrain::reduced on the cell of full_values_. */
-    double
-    full_integration_share() const;
-
-    /**
-     * Factors of the three terms at an edge point, quadrature weight included:
-     * penalty [[theta(u)]] [[theta(v)]] + symmetry {m_nn(v)} [[theta(u)]] +
-     * consistency [[theta(v)]] {m_nn(u)}.
-     */
-    struct Fluxes
-    {
-      double penalty;
-      double symmetry;
-      double consistency;
-    };
-
-    /** Those of the point @p q, to which hinge_ is set. */
-    Fluxes
-    fluxes(const ShellEdgeValues &edge,
-           const unsigned int     q,
-           const double           penalty) const;
-
     /** Rows whose product is the tangent of the point of hinge_. */
     void
-    fill_edge_rows(const unsigned int q, const Fluxes &fluxes);
+    fill_edge_rows(const unsigned int q, const HingeFluxes &fluxes);
 
     void
-    add_edge_residual(const Fluxes         &fluxes,
+    add_edge_residual(const HingeFluxes    &fluxes,
                       const double          rotation,
                       const Vector<double> &u,
                       LocalTerms           &terms) const;
@@ -106,12 +81,11 @@ namespace Nacre
     /** p x p points, for reduced integration only. */
     std::unique_ptr<ShellCellValues> reduced_values_;
 
-    std::vector<VoigtMatrix<>> membrane_stiffness_;
-    std::vector<VoigtMatrix<>> bending_stiffness_;
-    FullMatrix<double>         stress_rows_;
-    HingePoint                 hinge_;
-    FullMatrix<double>         test_rows_;
-    FullMatrix<double>         trial_rows_;
+    CellStiffness      stiffness_;
+    FullMatrix<double> stress_rows_;
+    HingePoint         hinge_;
+    FullMatrix<double> test_rows_;
+    FullMatrix<double> trial_rows_;
   };
 } // namespace Nacre
 

@@ -169,7 +169,9 @@ namespace Nacre
     const Loads                &loads_;
     EdgePenalty                 penalty_;
     std::unique_ptr<Kinematics> kinematics_;
-    std::vector<SurfacePoint>   force_points_;
+    /** Whether to assemble the symmetric part of the tangent. */
+    const bool                symmetrizes_;
+    std::vector<SurfacePoint> force_points_;
   };
 } // namespace Nacre
 

@@ -190,6 +190,8 @@ namespace Nacre
     unsigned int mapping_degree_       = 0;
     std::string  membrane_strain_name_ = "default";
     std::string  edge_form_name_       = "hinge";
+    std::string  kinematics_name_      = "linear";
+    std::string  tangent_name_         = "consistent";
 
     ShellCase  case_;
     Constants  constants_;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_cell_stiffness_h
+#define nacre_forms_cell_stiffness_h
+
+#include <nacre/discretization/shell_values.h>
+#include <nacre/mechanics/section_law.h>
+
+#include <vector>
+
+namespace Nacre
+{
+  /** Section stiffness times area and weight at the points of a cell. */
+  struct CellStiffness
+  {
+    /** H_n times the area (force times 1/length^3). */
+    std::vector<VoigtMatrix<>> membrane;
+    /** H_m times the area (force/length). */
+    std::vector<VoigtMatrix<>> bending;
+
+    /** @param membrane_factor share of these points in the membrane energy */
+    void
+    reinit(const ShellCellValues &values,
+           const SectionLaw      &section,
+           const double           membrane_factor);
+  };
+
+  /**
+   * f = min(1, h^2 / |K|) of MembraneStrain::reduced on the cell of
+   * @p values, h the mean thickness.
+   */
+  double
+  full_integration_share(const ShellCellValues &values,
+                         const SectionLaw      &section);
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_corotational_cell_h
+#define nacre_forms_corotational_cell_h
+
+#include <nacre/base/mutation.h>
+#include <nacre/discretization/shell_values.h>
+#include <nacre/mechanics/corotational_strain.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace Nacre
+{
+  /** A vector for each node of a cell. */
+  template <typename Number>
+  using NodeVectors = std::vector<Tensor<1, spacedim, Number>>;
+
+  /** u,1 and u,2 at the point @p q of @p shapes. */
+  template <typename Number>
+  std::array<Tensor<1, spacedim, Number>, 2>
+  displacement_gradient(const ShapeTable          &shapes,
+                        const unsigned int         q,
+                        const NodeVectors<Number> &u)
+  {
+    std::array<Tensor<1, spacedim, Number>, 2> du;
+    for (unsigned int a = 0; a < u.size(); ++a)
+      for (unsigned int alpha = 0; alpha < 2; ++alpha)
+        du[alpha] += shapes.gradient(q, a)[alpha] * u[a];
+    return du;
+  }
+
+  /** The frame after the displacement @p u of the nodes. */
+  template <typename Number>
+  SurfaceFrame<Number>
+  deformed_frame(const SurfaceFrame<>      &frame,
+                 const ShapeTable          &shapes,
+                 const unsigned int         q,
+                 const NodeVectors<Number> &u)
+  {
+    const auto du = displacement_gradient(shapes, q, u);
+    std::array<Tensor<1, spacedim, Number>, 3> ddu;
+    for (unsigned int v = 0; v < 3; ++v)
+      {
+        ddu[v] = frame.a_cov_derivatives[v];
+        for (unsigned int a = 0; a < u.size(); ++a)
+          ddu[v] += shapes.hessian(q, a)[v] * u[a];
+      }
+    return make_surface_frame<Number>(frame.a_cov[0] + du[0],
+                                      frame.a_cov[1] + du[1],
+                                      ddu);
+  }
+
+  /**
+   * The membrane part of the co-rotational cell, (46)-(48): the membrane
+   * strain of R^T phi - phi0 is sampled at the tying points, each with a polar
+   * rotation of its own; the energy is 1/2 e . M . e of the samples e.
+   *
+   * Templated on the scalar, so that tests can take complex steps.
+   */
+  template <typename Number>
+  class CorotationalMembrane
+  {
+  public:
+    using Vector = Tensor<1, spacedim, Number>;
+
+    /** @param stiffness M (force times length), from membrane_stiffness() */
+    void
+    reinit(const ShellCellValues     &values,
+           const FullMatrix<double>  &stiffness,
+           const NodeVectors<Number> &u)
+    {
+      const auto &tying = values.tying();
+      deformed_.resize(tying.points().size());
+      polar_.resize(tying.points().size());
+      std::vector<Voigt<Number>> strain(tying.points().size());
+      for (unsigned int k = 0; k < strain.size(); ++k)
+        {
+          const auto &frame = values.tying_frame(k);
+          const auto  du = displacement_gradient(values.tying_shapes(), k, u);
+          deformed_[k]   = make_surface_frame<Number>(frame.a_cov[0] + du[0],
+                                                    frame.a_cov[1] + du[1],
+                                                    {});
+          polar_[k]      = make_polar_rotation(frame, deformed_[k]);
+          strain[k] =
+            CorotationalStrain::membrane(frame, deformed_[k], polar_[k]);
+        }
+
+      const auto &samples = tying.samples();
+      strains_.resize(samples.size());
+      for (unsigned int s = 0; s < samples.size(); ++s)
+        {
+          strains_[s] = 0.;
+          for (unsigned int v = 0; v < 3; ++v)
+            strains_[s] +=
+              samples[s].direction[v] * strain[samples[s].point][v];
+        }
+      set_forces(tying, stiffness);
+    }
+
+    /** 1/2 e . M . e (force times length). */
+    Number
+    energy() const
+    {
+      Number sum = 0.;
+      for (unsigned int s = 0; s < strains_.size(); ++s)
+        sum += 0.5 * strains_[s] * forces_[s];
+      return sum;
+    }
+
+    /**
+     * Add the internal force of each node, R B^T D B (R^T x - X0), (48).
+     */
+    void
+    add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
+    {
+      for (unsigned int k = 0; k < polar_.size(); ++k)
+        {
+          // The virtual strain R phi0,(a . v,b) has R frozen.
+          const auto  &n   = resultants_[k];
+          const auto  &q   = polar_[k].q_cov;
+          const Vector g_1 = n[0] * q[0] + n[2] * q[1];
+          const Vector g_2 = n[1] * q[1] + n[2] * q[0];
+          for (unsigned int a = 0; a < force.size(); ++a)
+            {
+              const auto &dN = values.tying_shapes().gradient(k, a);
+              force[a] += dN[0] * g_1 + dN[1] * g_2;
+            }
+        }
+    }
+
+    /** a_cov = phi,alpha and t0 = t at the tying point @p k. */
+    const SurfaceFrame<Number> &
+    deformed(const unsigned int k) const
+    {
+      return deformed_[k];
+    }
+
+    const PolarRotation<Number> &
+    polar(const unsigned int k) const
+    {
+      return polar_[k];
+    }
+
+    /** Strain of the sample @p s (length^2). */
+    const Number &
+    strain(const unsigned int s) const
+    {
+      return strains_[s];
+    }
+
+    /** Work conjugates of the strains of the tying point @p k, Voigt. */
+    const Voigt<Number> &
+    resultant(const unsigned int k) const
+    {
+      return resultants_[k];
+    }
+
+  private:
+    void
+    set_forces(const MembraneTying &tying, const FullMatrix<double> &stiffness)
+    {
+      const auto &samples = tying.samples();
+      forces_.assign(samples.size(), 0.);
+      resultants_.assign(tying.points().size(), Voigt<Number>());
+      for (unsigned int s = 0; s < samples.size(); ++s)
+        {
+          for (unsigned int r = 0; r < samples.size(); ++r)
+            forces_[s] += stiffness(s, r) * strains_[r];
+          for (unsigned int v = 0; v < 3; ++v)
+            resultants_[samples[s].point][v] +=
+              samples[s].direction[v] * forces_[s];
+        }
+    }
+
+    /** By tying point. */
+    std::vector<SurfaceFrame<Number>>  deformed_;
+    std::vector<PolarRotation<Number>> polar_;
+    std::vector<Voigt<Number>>         resultants_;
+    /** By sample. */
+    std::vector<Number> strains_;
+    std::vector<Number> forces_;
+  };
+
+  /**
+   * The bending part of the co-rotational cell: the strain is the exact change
+   * of curvature, its virtual counterpart -(v,ab - Gamma0^g_ab v,g) . t.
+   */
+  template <typename Number>
+  class CorotationalBending
+  {
+  public:
+    /** @param stiffness H_m times area and weight at each point */
+    void
+    reinit(const ShellCellValues            &values,
+           const std::vector<VoigtMatrix<>> &stiffness,
+           const NodeVectors<Number>        &u)
+    {
+      deformed_.resize(values.n_points());
+      strains_.resize(values.n_points());
+      moments_.resize(values.n_points());
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        {
+          deformed_[q] = deformed_frame(values.frame(q), values.shapes(), q, u);
+          strains_[q] =
+            CorotationalStrain::bending(values.frame(q), deformed_[q]);
+          moments_[q] = stiffness[q] * strains_[q];
+        }
+    }
+
+    /** Force times length. */
+    Number
+    energy() const
+    {
+      Number sum = 0.;
+      for (unsigned int q = 0; q < strains_.size(); ++q)
+        sum += 0.5 * (strains_[q] * moments_[q]);
+      return sum;
+    }
+
+    /** Add the internal force of each node, (48). */
+    void
+    add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
+    {
+      for (unsigned int q = 0; q < moments_.size(); ++q)
+        for (unsigned int a = 0; a < force.size(); ++a)
+          {
+            const Voigt<> strain = ShellStrain::bending_of_shape_function(
+              values.frame(q),
+              values.shapes().gradient(q, a),
+              values.shapes().hessian(q, a));
+            force[a] += (strain * moments_[q]) * deformed_[q].t0;
+          }
+    }
+
+    /** phi,alpha, their derivatives and t0 = t at the point @p q. */
+    const SurfaceFrame<Number> &
+    deformed(const unsigned int q) const
+    {
+      return deformed_[q];
+    }
+
+    const Voigt<Number> &
+    strain(const unsigned int q) const
+    {
+      return strains_[q];
+    }
+
+    /** m^ab times area and weight, Voigt. */
+    const Voigt<Number> &
+    moment(const unsigned int q) const
+    {
+      return moments_[q];
+    }
+
+  private:
+    std::vector<SurfaceFrame<Number>> deformed_;
+    std::vector<Voigt<Number>>        strains_;
+    std::vector<Voigt<Number>>        moments_;
+  };
+
+  /**
+   * M of the samples' strains: sum_q of their interpolation to the points,
+   * times H_n with area and weight there, @p stiffness.
+   */
+  FullMatrix<double>
+  membrane_stiffness(const ShellCellValues            &values,
+                     const std::vector<VoigtMatrix<>> &stiffness);
+} // namespace Nacre
+
+#endif

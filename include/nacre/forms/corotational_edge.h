@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_corotational_edge_h
+#define nacre_forms_corotational_edge_h
+
+#include <nacre/base/mutation.h>
+#include <nacre/forms/corotational_cell.h>
+#include <nacre/forms/hinge_form.h>
+
+namespace Nacre
+{
+  /**
+   * The hinge form in the frame that turns with the edge, at one point:
+   * f = R K^e (R^T x - X0), (48) with the linear form's K^e.
+   *
+   * Interior edges: R = [d, b, t] [d0, b0, t_e]^T with d the unit tangent of
+   * the deformed edge, t the normalised mean of the deformed normals (which
+   * are orthogonal to d since the displacement is continuous along the edge),
+   * b = t x d. Opposite orientation: the normal of K^+ enters with sigma.
+   *
+   * Prescribed rotation theta_bar: R is the rotation by theta_bar about the
+   * edge that moves the conormal towards the normal, followed by the smallest
+   * rotation that takes d0 to d. On a clamped edge d = d0 and R is the
+   * prescribed rotation; the edge in a symmetry plane turns within the plane,
+   * about the plane's normal, and so does R.
+   *
+   * With R t0 the turned normal of a side, lambda = dx/dnu and
+   * mu = -H_m(nu, nu)^ab (x,ab - Gamma0^g_ab x,g) of the deformed positions,
+   *
+   * theta = R t0 . lambda,   m_nn = R t0 . mu + H_m(nu, nu)^ab phi0,ab . t0.
+   */
+  template <typename Number>
+  class CorotationalEdgePoint
+  {
+  public:
+    using Vector = Tensor<1, spacedim, Number>;
+
+    struct Side
+    {
+      /** Rows of theta and m_nn, sigma included. */
+      HingeSide hinge;
+      /** phi,alpha and t0 = t of the side's cell. */
+      SurfaceFrame<Number> deformed;
+      /** R t0. */
+      Vector normal;
+      Vector lambda;
+      Vector mu;
+      /** Factor of theta in [[theta]] and of m_nn in {m_nn}. */
+      double jump_factor;
+      double mean_factor;
+      /** d . omega = spin[g] (t . d(phi,g)) + that of the edge's tangent. */
+      std::array<Number, 2> spin;
+    };
+
+    /**
+     * Everything at the point @p q, for the displacements @p u of the nodes of
+     * each side.
+     * @param rotation theta_bar (rad), 0 for interior edges
+     */
+    void
+    reinit(const ShellEdgeValues                    &edge,
+           const unsigned int                        q,
+           const SectionLaw                         &section,
+           const double                              penalty,
+           const double                              rotation,
+           const std::array<NodeVectors<Number>, 2> &u)
+    {
+      n_sides_   = edge.n_sides();
+      nu_        = edge.conormal(0, q);
+      d0_        = cross_product_3d(nu_, edge.frame(0, q).t0);
+      stiffness_ = 0.;
+      for (unsigned int s = 0; s < n_sides_; ++s)
+        reinit_side(edge, s, q, section, u[s]);
+
+      // d(x)/ds along the edge: phi,alpha times the components of d0.
+      const auto  &frame = edge.frame(0, q);
+      const Vector e = (d0_ * frame.a_con[0]) * sides_[0].deformed.a_cov[0] +
+                       (d0_ * frame.a_con[1]) * sides_[0].deformed.a_cov[1];
+      using std::sqrt;
+      stretch_ = sqrt(Number(e * e));
+      d_       = e / stretch_;
+      if (n_sides_ == 2)
+        rotate_with_mean_normal(edge, q);
+      else
+        rotate_as_prescribed(edge.frame(0, q).t0, rotation);
+
+      jump_ = 0.;
+      mean_ = 0.;
+      for (unsigned int s = 0; s < n_sides_; ++s)
+        {
+          const Side &side = sides_[s];
+          jump_ += side.jump_factor * (side.normal * side.lambda);
+          mean_ += side.mean_factor *
+                   (side.normal * side.mu + side.hinge.curvature_moment);
+        }
+      fluxes_ = hinge_fluxes(edge, q, stiffness_, penalty);
+    }
+
+    unsigned int
+    n_sides() const
+    {
+      return n_sides_;
+    }
+
+    const Side &
+    side(const unsigned int s) const
+    {
+      return sides_[s];
+    }
+
+    const HingeFluxes &
+    fluxes() const
+    {
+      return fluxes_;
+    }
+
+    /** d, and |dx/ds| of the edge. */
+    const Vector &
+    tangent() const
+    {
+      return d_;
+    }
+
+    const Number &
+    stretch() const
+    {
+      return stretch_;
+    }
+
+    /** Undeformed d0. */
+    const Tensor<1, spacedim> &
+    initial_tangent() const
+    {
+      return d0_;
+    }
+
+    /** d . omega per rate of d, beyond the sides' spin. */
+    const Vector &
+    tangent_spin() const
+    {
+      return tangent_spin_;
+    }
+
+    /** Work conjugate of theta of the side @p s, weight included. */
+    Number
+    rotation_force(const unsigned int s) const
+    {
+      return sides_[s].jump_factor *
+             (fluxes_.penalty * jump_ + fluxes_.consistency * mean_);
+    }
+
+    /** Work conjugate of m_nn of the side @p s, weight included. */
+    Number
+    moment_force(const unsigned int s) const
+    {
+      return sides_[s].mean_factor * fluxes_.symmetry * jump_;
+    }
+
+    /** Penalty and consistency energy (force times length). */
+    Number
+    energy() const
+    {
+      return 0.5 * fluxes_.penalty * jump_ * jump_ +
+             0.5 * (fluxes_.consistency + fluxes_.symmetry) * mean_ * jump_;
+    }
+
+    /** Add the internal force of each node of the side @p s. */
+    void
+    add_force(const unsigned int s, NodeVectors<Number> &force) const
+    {
+      const auto  &hinge = sides_[s].hinge;
+      const Number f     = rotation_force(s);
+      const Number g     = moment_force(s);
+      for (unsigned int a = 0; a < force.size(); ++a)
+        force[a] +=
+          (f * hinge.rotation[a] + g * hinge.moment[a]) * sides_[s].normal;
+    }
+
+    /** R applied to @p v. */
+    Vector
+    rotate(const Tensor<1, spacedim> &v) const
+    {
+      return (v * d0_) * d_ + (v * b0_) * b_ + (v * t_e_) * t_;
+    }
+
+  private:
+    void
+    reinit_side(const ShellEdgeValues     &edge,
+                const unsigned int         s,
+                const unsigned int         q,
+                const SectionLaw          &section,
+                const NodeVectors<Number> &u)
+    {
+      Side &side = sides_[s];
+      side.hinge.reinit(edge, s, q, section);
+      const auto &a_cov = edge.frame(s, q).a_cov;
+      const auto  du    = displacement_gradient(edge.shapes(s), q, u);
+      side.deformed =
+        make_surface_frame<Number>(a_cov[0] + du[0], a_cov[1] + du[1], {});
+      side.jump_factor =
+        s == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.; // plus - minus
+      side.mean_factor = n_sides_ == 2 ? NACRE_MUTABLE(half, 0.5, 1.) : 1.;
+      side.lambda      = edge.sigma(s, q) * edge.conormal(s, q);
+      side.mu          = -side.hinge.curvature_moment * side.hinge.t0;
+      for (unsigned int a = 0; a < u.size(); ++a)
+        {
+          side.lambda += side.hinge.rotation[a] * u[a];
+          side.mu += side.hinge.moment[a] * u[a];
+        }
+      stiffness_ += (n_sides_ == 2 ? 0.5 : 1.) * side.hinge.stiffness;
+    }
+
+    void
+    rotate_with_mean_normal(const ShellEdgeValues &edge, const unsigned int q)
+    {
+      const double        sigma = edge.sigma(1, q);
+      Tensor<1, spacedim> mean0 =
+        sides_[0].hinge.t0 + sigma * sides_[1].hinge.t0;
+      t_e_              = mean0 / mean0.norm();
+      b0_               = cross_product_3d(t_e_, d0_);
+      const Vector mean = sides_[0].deformed.t0 + sigma * sides_[1].deformed.t0;
+      using std::sqrt;
+      const Number length = sqrt(Number(mean * mean));
+      t_                  = mean / length;
+      b_                  = cross_product_3d(t_, d_);
+      for (unsigned int s = 0; s < 2; ++s)
+        {
+          // d . omega = -b . dt, dt^s = -phi^g (t^s . d(phi,g))
+          for (unsigned int g = 0; g < 2; ++g)
+            sides_[s].spin[g] = (s == 0 ? 1. : sigma) *
+                                (b_ * sides_[s].deformed.a_con[g]) / length;
+          sides_[s].normal = rotate(sides_[s].hinge.t0);
+        }
+      tangent_spin_ = Vector();
+    }
+
+    void
+    rotate_as_prescribed(const Tensor<1, spacedim> &t0, const double rotation)
+    {
+      const double sine =
+        NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation);
+      const double cosine = std::cos(rotation);
+
+      b0_  = nu_;
+      t_e_ = t0;
+      b_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * nu_ + sine * t0);
+      t_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * t0 - sine * nu_);
+      tangent_spin_    = EdgeRotation::smallest_spin(d0_, d_);
+      sides_[0].spin   = {{Number(0.), Number(0.)}};
+      sides_[0].normal = t_;
+    }
+
+    unsigned int        n_sides_ = 0;
+    std::array<Side, 2> sides_;
+    HingeFluxes         fluxes_;
+    double              stiffness_ = 0.;
+    Number              jump_      = 0.;
+    Number              mean_      = 0.;
+
+    /** The edge's frame before and after: R = [d, b, t] [d0, b0, t_e]^T. */
+    Tensor<1, spacedim> nu_, d0_, b0_, t_e_;
+    Vector              d_, b_, t_;
+    Number              stretch_ = 0.;
+    Vector              tangent_spin_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_corotational_kinematics_h
+#define nacre_forms_corotational_kinematics_h
+
+#include <nacre/forms/cell_stiffness.h>
+#include <nacre/forms/corotational_cell.h>
+#include <nacre/forms/corotational_edge.h>
+#include <nacre/forms/kinematics.h>
+
+namespace Nacre
+{
+  /**
+   * Large rotations, small strains, (46)-(48): the linear forms act on
+   * R^T x - X0, with the polar rotation R at every cell point and the edge
+   * frame's rotation at every edge point,
+   *
+   * f = sum w R B^T D B (R^T x - X0).
+   *
+   * The frozen tangent (47) is R B^T D B R^T; the consistent tangent is the exact derivative of f, dR/du of cells and
+   * edges included. Since f depends on the nodes only through derivatives at
+   * points, f_a = sum_r N_r[a] g_r with scalar rows N_r of shape functions
+   * (N,1 and N,2 at tying points, the bending strain's at the others), its
+   * derivative is the dense product of the rows N_r[a] and dg_r[c][j], which
+   * takes no more operations than the linear B^T D B.
+   */
+  class CorotationalKinematics : public Kinematics
+  {
+  public:
+    CorotationalKinematics(const Discretization &discretization,
+                           const SectionLaw     &section,
+                           const MembraneStrain  membrane_strain,
+                           const TangentType     tangent_type);
+
+    std::unique_ptr<Kinematics>
+    clone() const override;
+
+    void
+    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                   const Vector<double>                              &u,
+                   LocalTerms &terms) override;
+
+    const ShellCellValues &
+    cell_values() const override
+    {
+      return full_points_.values;
+    }
+
+    void
+    add_edge_terms(const ShellEdgeValues &edge,
+                   const double           penalty,
+                   const Vector<double>  &u,
+                   LocalTerms            &terms) override;
+
+    void
+    add_rotation_terms(const ShellEdgeValues     &edge,
+                       const double               penalty,
+                       const std::vector<double> &rotation,
+                       const Vector<double>      &u,
+                       LocalTerms                &terms) override;
+
+  private:
+    /** The points of one rule and the rows of the tangent that they need. */
+    struct CellPoints
+    {
+      CellPoints(const Discretization  &discretization,
+                 const Quadrature<dim> &quadrature,
+                 const bool             tied);
+
+      ShellCellValues values;
+      CellStiffness   stiffness;
+      /** M of CorotationalMembrane. */
+      FullMatrix<double> membrane_stiffness;
+      /**
+       * [2 k + alpha]: row of N,alpha at the tying point k, counted from the
+       * first membrane row, or invalid if no sample there needs it.
+       */
+      std::vector<unsigned int> membrane_rows;
+      unsigned int              n_membrane_rows = 0;
+    };
+
+    /** Residual and energy of the membrane strain, and rows of the tangent. */
+    void
+    add_membrane_terms(CellPoints        &points,
+                       const unsigned int first_row,
+                       LocalTerms        &terms);
+
+    void
+    add_bending_terms(CellPoints        &points,
+                      const unsigned int first_row,
+                      LocalTerms        &terms);
+
+    /** Set sample_rows_: derivative of each sample's strain. */
+    void
+    fill_sample_rows(const CellPoints &points);
+
+    void
+    fill_membrane_rows(const CellPoints &points, const unsigned int first_row);
+
+    void
+    fill_bending_rows(const CellPoints &points, const unsigned int first_row);
+
+    /** terms.tangent += product of the rows, in the cell's order of dofs. */
+    void
+    add_cell_tangent(LocalTerms &terms);
+
+    /** Set omega_, jump_row_, mean_row_ of the point of edge_point_. */
+    void
+    fill_edge_derivatives(const ShellEdgeValues &edge, const unsigned int q);
+
+    /** The two rows of the side @p s at the point @p q. */
+    void
+    fill_edge_rows(const unsigned int s, const unsigned int q);
+
+    void
+    add_edge_tangent(const ShellEdgeValues &edge,
+                     const unsigned int     side,
+                     LocalTerms            &terms);
+
+    /** Whether the tangent contains the rotations' derivatives. */
+    bool
+    is_consistent() const
+    {
+      return tangent_type_ != TangentType::frozen;
+    }
+
+    const Discretization &discretization_;
+    const SectionLaw     &section_;
+    const MembraneStrain  membrane_strain_;
+    const TangentType     tangent_type_;
+    CellPoints            full_points_;
+    /** p x p points, for reduced integration only. */
+    std::unique_ptr<CellPoints> reduced_points_;
+
+    CorotationalMembrane<double> membrane_;
+    CorotationalBending<double>  bending_;
+    NodeVectors<double>          u_;
+    NodeVectors<double>          force_;
+    /** [sample][3 b + d]: derivatives of the strains and of their forces. */
+    FullMatrix<double> sample_rows_;
+    FullMatrix<double> force_rows_;
+    /** Shape functions N_r [r][a], and dg_r [r][c n_dofs + j]. */
+    FullMatrix<double> shape_rows_;
+    FullMatrix<double> derivative_rows_;
+    /** Their product, [a][c n_dofs + j]. */
+    FullMatrix<double> product_;
+
+    CorotationalEdgePoint<double>      edge_point_;
+    std::array<NodeVectors<double>, 2> edge_u_;
+    /** Derivatives [c n_dofs + j] of the edge's rotation vector. */
+    std::vector<double> omega_;
+    /** Derivatives of [[theta]] and {m_nn}. */
+    std::vector<double>               jump_row_;
+    std::vector<double>               mean_row_;
+    std::array<FullMatrix<double>, 2> edge_shape_rows_;
+    std::array<FullMatrix<double>, 2> edge_derivative_rows_;
+  };
+} // namespace Nacre
+
+#endif

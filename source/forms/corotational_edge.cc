@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/forms/corotational_kinematics.h>
+
+namespace Nacre
+{
+  void
+  CorotationalKinematics::add_edge_terms(const ShellEdgeValues &edge,
+                                         const double           penalty,
+                                         const Vector<double>  &u,
+                                         LocalTerms            &terms)
+  {
+    add_rotation_terms(edge,
+                       penalty,
+                       std::vector<double>(edge.n_points(), 0.),
+                       u,
+                       terms);
+  }
+
+  void
+  CorotationalKinematics::add_rotation_terms(
+    const ShellEdgeValues     &edge,
+    const double               penalty,
+    const std::vector<double> &rotation,
+    const Vector<double>      &u,
+    LocalTerms                &terms)
+  {
+    const unsigned int n_points = edge.n_points();
+    const unsigned int n_nodes  = edge.shapes(0).n_nodes();
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        edge_u_[s].assign(n_nodes, Tensor<1, spacedim>());
+        if (u.size() != 0)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              edge_u_[s][a][c] = u[edge.dof(s, a, c)];
+        if (terms.wants_tangent)
+          {
+            edge_shape_rows_[s].reinit(2 * n_points, n_nodes, true);
+            edge_derivative_rows_[s].reinit(2 * n_points,
+                                            spacedim * edge.n_dofs(),
+                                            true);
+          }
+      }
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        edge_point_.reinit(edge, q, section_, penalty, rotation[q], edge_u_);
+        terms.energies.edge += edge_point_.energy();
+        for (unsigned int s = 0; s < edge.n_sides(); ++s)
+          {
+            force_.assign(n_nodes, Tensor<1, spacedim>());
+            edge_point_.add_force(s, force_);
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                terms.residual[edge.dof(s, a, c)] += force_[a][c];
+          }
+        if (terms.wants_tangent)
+          {
+            fill_edge_derivatives(edge, q);
+            for (unsigned int s = 0; s < edge.n_sides(); ++s)
+              fill_edge_rows(s, q);
+          }
+      }
+    if (terms.wants_tangent)
+      for (unsigned int s = 0; s < edge.n_sides(); ++s)
+        add_edge_tangent(edge, s, terms);
+  }
+
+  namespace
+  {
+    /** Derivatives [d] . d(e) of omega for the tangent e = dx/ds. */
+    std::array<Tensor<1, spacedim>, spacedim>
+    tangent_rotation(const CorotationalEdgePoint<double> &point)
+    {
+      // omega = d x dd + d (tangent_spin . dd), dd = (1 - d d) de / |e|
+      const auto &d    = point.tangent();
+      const auto  spin = point.tangent_spin() - (point.tangent_spin() * d) * d;
+      std::array<Tensor<1, spacedim>, spacedim> columns;
+      for (unsigned int i = 0; i < spacedim; ++i)
+        {
+          Tensor<1, spacedim> unit;
+          unit[i] = 1.;
+          columns[i] =
+            (NACRE_MUTABLE(edge_tangent_turn, 1., 0.) *
+               cross_product_3d(d, unit) +
+             NACRE_MUTABLE(edge_tangent_spin, 1., 0.) * spin[i] * d) /
+            point.stretch();
+        }
+      return columns;
+    }
+  } // namespace
+
+  void
+  CorotationalKinematics::fill_edge_derivatives(const ShellEdgeValues &edge,
+                                                const unsigned int     q)
+  {
+    const unsigned int n = edge.n_dofs();
+    omega_.assign(spacedim * n, 0.);
+    jump_row_.assign(n, 0.);
+    mean_row_.assign(n, 0.);
+
+    // How [[theta]] and {m_nn} change with a rotation of R.
+    Tensor<1, spacedim> jump_by_omega, mean_by_omega;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const auto &side = edge_point_.side(s);
+        jump_by_omega +=
+          side.jump_factor * cross_product_3d(side.normal, side.lambda);
+        mean_by_omega +=
+          side.mean_factor * cross_product_3d(side.normal, side.mu);
+      }
+
+    const auto   columns = tangent_rotation(edge_point_);
+    const auto  &d0      = edge_point_.initial_tangent();
+    const auto  &d       = edge_point_.tangent();
+    const double d_1     = d0 * edge.frame(0, q).a_con[0];
+    const double d_2     = d0 * edge.frame(0, q).a_con[1];
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const auto &side   = edge_point_.side(s);
+        const auto &shapes = edge.shapes(s);
+        for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+          {
+            const auto  &dN   = shapes.gradient(q, b);
+            const double spin = NACRE_MUTABLE(edge_normal_spin, 1., 0.) *
+                                (side.spin[0] * dN[0] + side.spin[1] * dN[1]);
+            const double e = s == 0 ? d_1 * dN[0] + d_2 * dN[1] : 0.;
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const unsigned int j = edge.dof(s, b, c);
+                jump_row_[j] +=
+                  side.jump_factor * side.hinge.rotation[b] * side.normal[c];
+                mean_row_[j] +=
+                  side.mean_factor * side.hinge.moment[b] * side.normal[c];
+                if (is_consistent())
+                  {
+                    const auto omega =
+                      (spin * side.deformed.t0[c]) * d + e * columns[c];
+                    for (unsigned int k = 0; k < spacedim; ++k)
+                      omega_[k * n + j] += omega[k];
+                    jump_row_[j] += jump_by_omega * omega;
+                    mean_row_[j] += mean_by_omega * omega;
+                  }
+              }
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::fill_edge_rows(const unsigned int s,
+                                         const unsigned int q)
+  {
+    const auto        &side   = edge_point_.side(s);
+    const auto        &fluxes = edge_point_.fluxes();
+    const unsigned int n      = jump_row_.size();
+    for (unsigned int a = 0; a < side.hinge.rotation.size(); ++a)
+      {
+        edge_shape_rows_[s](2 * q, a)     = side.hinge.rotation[a];
+        edge_shape_rows_[s](2 * q + 1, a) = side.hinge.moment[a];
+      }
+    const double f = edge_point_.rotation_force(s);
+    const double g = edge_point_.moment_force(s);
+    for (unsigned int c = 0; c < spacedim; ++c)
+      {
+        // d(R t0) = omega x R t0
+        const unsigned int c1     = (c + 1) % spacedim;
+        const unsigned int c2     = (c + 2) % spacedim;
+        const double      *omega1 = &omega_[c1 * n];
+        const double      *omega2 = &omega_[c2 * n];
+        double            *df     = &edge_derivative_rows_[s](2 * q, c * n);
+        double            *dg     = &edge_derivative_rows_[s](2 * q + 1, c * n);
+        const double       t      = side.normal[c];
+        const double       t1     = side.normal[c1];
+        const double       t2     = side.normal[c2];
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            const double turn = omega1[j] * t2 - omega2[j] * t1;
+            df[j]             = side.jump_factor * t *
+                      (fluxes.penalty * jump_row_[j] +
+                       fluxes.consistency * mean_row_[j]) +
+                    f * turn;
+            dg[j] =
+              side.mean_factor * t * fluxes.symmetry * jump_row_[j] + g * turn;
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::add_edge_tangent(const ShellEdgeValues &edge,
+                                           const unsigned int     side,
+                                           LocalTerms            &terms)
+  {
+    const unsigned int n       = edge.n_dofs();
+    const unsigned int n_nodes = edge.shapes(side).n_nodes();
+    product_.reinit(n_nodes, spacedim * n, true);
+    edge_shape_rows_[side].Tmmult(product_, edge_derivative_rows_[side]);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const double *entry = &product_(a, c * n);
+          double       *row   = &terms.tangent(edge.dof(side, a, c), 0);
+          for (unsigned int j = 0; j < n; ++j)
+            row[j] += entry[j];
+        }
+  }
+} // namespace Nacre

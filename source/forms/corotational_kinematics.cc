@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mutation.h>
+#include <nacre/forms/corotational_kinematics.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** Displacements of the nodes; zero if @p u is empty. */
+    void
+    extract_nodes(const ShellCellValues &values,
+                  const Vector<double>  &u,
+                  NodeVectors<double>   &nodes)
+    {
+      nodes.assign(values.shapes().n_nodes(), Vector3());
+      if (u.size() != 0)
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            nodes[a][c] = u[values.dof(a, c)];
+    }
+
+    /**
+     * The vectors of which v,1 and v,2 make the sample's virtual strain
+     * direction . (q_1 . v,1, q_2 . v,2, q_1 . v,2 + q_2 . v,1).
+     */
+    std::array<Vector3, 2>
+    sample_vectors(const std::array<double, 3>  &direction,
+                   const std::array<Vector3, 2> &q)
+    {
+      return {{direction[0] * q[0] + direction[2] * q[1],
+               direction[1] * q[1] + direction[2] * q[0]}};
+    }
+  } // namespace
+
+  FullMatrix<double>
+  membrane_stiffness(const ShellCellValues            &values,
+                     const std::vector<VoigtMatrix<>> &stiffness)
+  {
+    const auto        &tying = values.tying();
+    FullMatrix<double> M(tying.samples().size());
+    for (unsigned int q = 0; q < stiffness.size(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        for (unsigned int w = 0; w < 3; ++w)
+          for (const auto &[r, weight_r] : tying.weights(q, v))
+            for (const auto &[s, weight_s] : tying.weights(q, w))
+              M(r, s) += weight_r * stiffness[q][v][w] * weight_s;
+    return M;
+  }
+
+  CorotationalKinematics::CellPoints::CellPoints(
+    const Discretization  &discretization,
+    const Quadrature<dim> &quadrature,
+    const bool             tied)
+    : values(discretization, quadrature, tied)
+  {
+    const auto &tying = values.tying();
+    membrane_rows.assign(2 * tying.points().size(),
+                         numbers::invalid_unsigned_int);
+    for (const auto &sample : tying.samples())
+      for (unsigned int alpha = 0; alpha < 2; ++alpha)
+        {
+          unsigned int &row = membrane_rows[2 * sample.point + alpha];
+          if ((sample.direction[alpha] != 0. || sample.direction[2] != 0.) &&
+              row == numbers::invalid_unsigned_int)
+            row = n_membrane_rows++;
+        }
+  }
+
+  CorotationalKinematics::CorotationalKinematics(
+    const Discretization &discretization,
+    const SectionLaw     &section,
+    const MembraneStrain  membrane_strain,
+    const TangentType     tangent_type)
+    : discretization_(discretization)
+    , section_(section)
+    , membrane_strain_(membrane_strain)
+    , tangent_type_(tangent_type)
+    , full_points_(discretization,
+                   cell_quadrature(discretization.element(), membrane_strain),
+                   membrane_strain == MembraneStrain::tied)
+  {
+    if (blends_integration(discretization.element(), membrane_strain))
+      reduced_points_ = std::make_unique<CellPoints>(
+        discretization,
+        discretization.element().reduced_quadrature(),
+        false);
+  }
+
+  std::unique_ptr<Kinematics>
+  CorotationalKinematics::clone() const
+  {
+    return std::make_unique<CorotationalKinematics>(discretization_,
+                                                    section_,
+                                                    membrane_strain_,
+                                                    tangent_type_);
+  }
+
+  void
+  CorotationalKinematics::add_cell_terms(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Vector<double>                              &u,
+    LocalTerms                                        &terms)
+  {
+    ShellCellValues &values = full_points_.values;
+    values.reinit_frames(cell);
+    const double share = reduced_points_ != nullptr ?
+                           full_integration_share(values, section_) :
+                           1.;
+    const bool   both  = share < 1.;
+    full_points_.stiffness.reinit(values, section_, share);
+    extract_nodes(values, u, u_);
+    force_.assign(u_.size(), Vector3());
+
+    const unsigned int n_full    = full_points_.n_membrane_rows;
+    const unsigned int n_bending = 3 * values.n_points();
+    const unsigned int n_rows =
+      n_full + n_bending + (both ? reduced_points_->n_membrane_rows : 0);
+    if (terms.wants_tangent)
+      {
+        shape_rows_.reinit(n_rows, u_.size(), true);
+        derivative_rows_.reinit(n_rows, spacedim * values.n_dofs());
+      }
+    add_membrane_terms(full_points_, 0, terms);
+    add_bending_terms(full_points_, n_full, terms);
+    if (both)
+      {
+        reduced_points_->values.reinit_frames(cell);
+        reduced_points_->stiffness.reinit(reduced_points_->values,
+                                          section_,
+                                          1. - share);
+        add_membrane_terms(*reduced_points_, n_full + n_bending, terms);
+      }
+
+    for (unsigned int a = 0; a < force_.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[values.dof(a, c)] += force_[a][c];
+    if (terms.wants_tangent)
+      add_cell_tangent(terms);
+  }
+
+  void
+  CorotationalKinematics::add_membrane_terms(CellPoints        &points,
+                                             const unsigned int first_row,
+                                             LocalTerms        &terms)
+  {
+    points.membrane_stiffness =
+      membrane_stiffness(points.values, points.stiffness.membrane);
+    membrane_.reinit(points.values, points.membrane_stiffness, u_);
+    membrane_.add_force(points.values, force_);
+    terms.energies.membrane += membrane_.energy();
+    if (terms.wants_tangent)
+      {
+        fill_sample_rows(points);
+        fill_membrane_rows(points, first_row);
+      }
+  }
+
+  void
+  CorotationalKinematics::add_bending_terms(CellPoints        &points,
+                                            const unsigned int first_row,
+                                            LocalTerms        &terms)
+  {
+    bending_.reinit(points.values, points.stiffness.bending, u_);
+    bending_.add_force(points.values, force_);
+    terms.energies.bending += bending_.energy();
+    if (terms.wants_tangent)
+      fill_bending_rows(points, first_row);
+  }
+
+  void
+  CorotationalKinematics::fill_sample_rows(const CellPoints &points)
+  {
+    const auto &samples = points.values.tying().samples();
+    const auto &shapes  = points.values.tying_shapes();
+    sample_rows_.reinit(samples.size(), points.values.n_dofs(), true);
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        const auto &[k, direction] = samples[s];
+        const auto &polar          = membrane_.polar(k);
+        auto        vectors        = sample_vectors(direction, polar.q_cov);
+        if (is_consistent())
+          {
+            // dq_alpha = (t . omega) t x q_alpha + (...) t
+            const auto &deformed = membrane_.deformed(k);
+            const auto  turned =
+              sample_vectors(direction,
+                             {{cross_product_3d(deformed.t0, polar.q_cov[0]),
+                               cross_product_3d(deformed.t0, polar.q_cov[1])}});
+            const double spin_strain =
+              NACRE_MUTABLE(polar_spin_strain, 1., 0.) *
+              (turned[0] * deformed.a_cov[0] + turned[1] * deformed.a_cov[1]);
+            for (unsigned int g = 0; g < 2; ++g)
+              vectors[g] += spin_strain * polar.spin[g];
+          }
+        double *row = &sample_rows_(s, 0);
+        for (unsigned int b = 0; b < u_.size(); ++b)
+          {
+            const auto &dN = shapes.gradient(k, b);
+            for (unsigned int d = 0; d < spacedim; ++d)
+              *row++ = dN[0] * vectors[0][d] + dN[1] * vectors[1][d];
+          }
+      }
+    force_rows_.reinit(samples.size(), sample_rows_.n(), true);
+    points.membrane_stiffness.mmult(force_rows_, sample_rows_);
+  }
+
+  namespace
+  {
+    /**
+     * The part of dg_alpha = d(N^alpha beta q_beta) that comes from dq_beta,
+     * [alpha][g]: to be applied to d(phi,g).
+     */
+    std::array<std::array<Tensor<2, spacedim>, 2>, 2>
+    polar_derivative(const Voigt<>         &n,
+                     const SurfaceFrame<>  &deformed,
+                     const PolarRotation<> &polar)
+    {
+      const auto  &t       = deformed.t0;
+      const double N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
+      std::array<std::array<Tensor<2, spacedim>, 2>, 2> X;
+      for (unsigned int alpha = 0; alpha < 2; ++alpha)
+        {
+          const Vector3 r =
+            N[alpha][0] * polar.q_cov[0] + N[alpha][1] * polar.q_cov[1];
+          for (unsigned int g = 0; g < 2; ++g)
+            X[alpha][g] =
+              (r * deformed.a_con[g]) * outer_product(t, t) +
+              NACRE_MUTABLE(polar_spin, 1., 0.) *
+                outer_product(cross_product_3d(t, r), polar.spin[g]);
+        }
+      return X;
+    }
+  } // namespace
+
+  void
+  CorotationalKinematics::fill_membrane_rows(const CellPoints  &points,
+                                             const unsigned int first_row)
+  {
+    const auto        &samples = points.values.tying().samples();
+    const auto        &shapes  = points.values.tying_shapes();
+    const unsigned int n       = points.values.n_dofs();
+    // Forces change with the strains ...
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        const unsigned int k = samples[s].point;
+        const auto         vectors =
+          sample_vectors(samples[s].direction, membrane_.polar(k).q_cov);
+        for (unsigned int alpha = 0; alpha < 2; ++alpha)
+          {
+            if (samples[s].direction[alpha] == 0. &&
+                samples[s].direction[2] == 0.)
+              continue;
+            const unsigned int r =
+              first_row + points.membrane_rows[2 * k + alpha];
+            const double *df = &force_rows_(s, 0);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                double      *dg = &derivative_rows_(r, c * n);
+                const double v  = vectors[alpha][c];
+                for (unsigned int j = 0; j < n; ++j)
+                  dg[j] += v * df[j];
+              }
+          }
+      }
+    // ... and turn.
+    for (unsigned int k = 0; k < shapes.n_points(); ++k)
+      {
+        const auto X = polar_derivative(membrane_.resultant(k),
+                                        membrane_.deformed(k),
+                                        membrane_.polar(k));
+        for (unsigned int alpha = 0; alpha < 2; ++alpha)
+          {
+            const unsigned int row = points.membrane_rows[2 * k + alpha];
+            if (row == numbers::invalid_unsigned_int)
+              continue;
+            for (unsigned int a = 0; a < u_.size(); ++a)
+              shape_rows_(first_row + row, a) = shapes.gradient(k, a)[alpha];
+            if (is_consistent())
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  double *dg = &derivative_rows_(first_row + row, c * n);
+                  for (unsigned int b = 0; b < u_.size(); ++b)
+                    {
+                      const auto &dN = shapes.gradient(k, b);
+                      for (unsigned int d = 0; d < spacedim; ++d)
+                        *dg++ +=
+                          X[alpha][0][c][d] * dN[0] + X[alpha][1][c][d] * dN[1];
+                    }
+                }
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::fill_bending_rows(const CellPoints  &points,
+                                            const unsigned int first_row)
+  {
+    const auto        &values = points.values;
+    const auto        &shapes = values.shapes();
+    const unsigned int n      = values.n_dofs();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto   &deformed = bending_.deformed(q);
+        const auto   &phi      = deformed.a_con;
+        const Vector3 t        = deformed.t0;
+        const auto   &m        = bending_.moment(q);
+        const auto   &H        = points.stiffness.bending[q];
+        for (unsigned int b = 0; b < u_.size(); ++b)
+          {
+            const auto &dN  = shapes.gradient(q, b);
+            const auto &ddN = shapes.hessian(q, b);
+            const auto  virtual_strain =
+              ShellStrain::bending_of_shape_function(values.frame(q), dN, ddN);
+            // d(rho_ab) = -(du,ab - Gamma^g_ab du,g) . t, Gamma the deformed
+            const auto moment =
+              H * (is_consistent() ?
+                     ShellStrain::bending_of_shape_function(deformed, dN, ddN) :
+                     virtual_strain);
+            // dt = -phi^g (t . du,g)
+            Vector3 turn;
+            if (is_consistent())
+              turn = NACRE_MUTABLE(normal_turn, -1., 0.) *
+                     (dN[0] * phi[0] + dN[1] * phi[1]);
+            for (unsigned int v = 0; v < 3; ++v)
+              {
+                const unsigned int r = first_row + 3 * q + v;
+                shape_rows_(r, b)    = virtual_strain[v];
+                const Vector3 dg     = moment[v] * t + m[v] * turn;
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  for (unsigned int d = 0; d < spacedim; ++d)
+                    derivative_rows_(r, c * n + 3 * b + d) = dg[c] * t[d];
+              }
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::add_cell_tangent(LocalTerms &terms)
+  {
+    const auto        &values = full_points_.values;
+    const unsigned int n      = values.n_dofs();
+    product_.reinit(u_.size(), spacedim * n, true);
+    shape_rows_.Tmmult(product_, derivative_rows_);
+    for (unsigned int a = 0; a < u_.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const double *entry = &product_(a, c * n);
+          double       *row   = &terms.tangent(values.dof(a, c), 0);
+          for (unsigned int b = 0; b < u_.size(); ++b)
+            for (unsigned int d = 0; d < spacedim; ++d)
+              row[values.dof(b, d)] += *entry++;
+        }
+  }
+} // namespace Nacre

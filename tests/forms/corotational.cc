@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// Co-rotational kinematics: no force under finite rigid motions, the linear
+// form at rest, the consistent tangent against complex steps.
+
+#include "corotational_shell.h"
+#include <nacre/forms/corotational_kinematics.h>
+
+#include <complex>
+#include <random>
+
+using Complex = std::complex<double>;
+
+const auto none = numbers::invalid_unsigned_int;
+
+/** 2 x 2 curved cells with a crease along u = 0. */
+std::string
+creased_text(const std::string &edges)
+{
+  return "subsection Mid-surface\n set Surface = expression\n"
+         " set Subdivisions = 2, 2\n subsection expression\n"
+         "  set Position = u + 0.1*v^2, v + 0.1*sin(2*u), "
+         "0.5*abs(u) + 0.3*u^2 - 0.2*v^2 + 0.15*u*v\n"
+         "  set Range u = -1, 1\n  set Range v = 0, 2\n end\nend\n" +
+         edges_parameter + edges + "\nend\n" + section_text(100., 0.3, 0.2);
+}
+
+double
+largest(const TrilinosVector &vector)
+{
+  return vector.linfty_norm();
+}
+
+// ---------------------------------------------------------------- rigid motion
+
+/** The rotation by |w| about w, with a shift. */
+VectorField
+rigid_motion(const Vector3 &w, const Vector3 &shift)
+{
+  return [w, shift](const Point<3> &X) {
+    const double  angle = w.norm();
+    const Vector3 k     = w / angle;
+    const Vector3 X0(X);
+    const Vector3 x = std::cos(angle) * X0 +
+                      std::sin(angle) * cross_product_3d(k, X0) +
+                      (1. - std::cos(angle)) * (k * X0) * k;
+    return Vector3(x - X0 + shift);
+  };
+}
+
+/** Residual of @p field, relative to that of a deformation as large. */
+double
+relative_force(const Discretization &discretization,
+               const ShellOperator  &shell_operator,
+               const VectorField    &field)
+{
+  auto force = zero_vector(discretization);
+  auto scale = zero_vector(discretization);
+  shell_operator.residual(interpolate(discretization, field), force);
+  shell_operator.residual(interpolate(discretization, some_field), scale);
+  return largest(force) / largest(scale);
+}
+
+void
+test_rigid_motion(const Parameters &parameters)
+{
+  Mesh mesh;
+  for (const double y : {0., 0.9, 2.})
+    {
+      mesh.vertices.emplace_back(-1. + 0.1 * y, y, 0.);
+      mesh.vertices.emplace_back(0., y, 0.);
+      mesh.vertices.emplace_back(std::cos(1.2), 1.1 * y, std::sin(1.2));
+    }
+  // Neighbours of opposite orientation and hanging nodes.
+  mesh.cells = {{{0, 1, 3, 4}}, {{1, 4, 2, 5}}, {{3, 4, 6, 7}}, {{4, 5, 7, 8}}};
+  mesh.map   = bend;
+  mesh.refined = {0};
+  const auto motion =
+    rigid_motion(Vector3{{1.9, -1.2, 0.8}}, Vector3{{0.3, -2., 1.}});
+  for (const unsigned int degree : {2, 3})
+    {
+      const auto discretization = make_discretization(mesh, degree);
+      for (const auto strain : {MembraneStrain::tied,
+                                MembraneStrain::full,
+                                MembraneStrain::reduced})
+        {
+          const ShellOperator shell_operator(*discretization,
+                                             parameters.section,
+                                             parameters.conditions,
+                                             parameters.loads,
+                                             corotational(strain),
+                                             10.);
+          check_below("rigid motion, p = " + std::to_string(degree) + ", " +
+                        membrane_strain_names()[static_cast<int>(strain)],
+                      relative_force(*discretization, shell_operator, motion),
+                      1e-12);
+        }
+    }
+}
+
+/** A surface that conditions hold while it moves as a rigid body. */
+double
+relative_force(const std::string &position,
+               const std::string &edges,
+               const Vector3     &rotation)
+{
+  const Shell shell("subsection Mid-surface\n set Surface = expression\n"
+                    " set Subdivisions = 2, 2\n subsection expression\n"
+                    "  set Position = " +
+                      position +
+                      "\n  set Range u = -1, 1\n  set Range v = 0, 1\n"
+                      " end\nend\n" +
+                      edges_parameter + edges + "\nend\n" +
+                      section_text(100., 0.3, 0.2),
+                    {ElementType::lagrange, 2});
+  return relative_force(*shell.discretization,
+                        *shell.make_operator(
+                          corotational(MembraneStrain::tied)),
+                        rigid_motion(rotation, Vector3()));
+}
+
+void
+test_rigid_motion_with_conditions()
+{
+  // theta > 0 turns the outward conormal -y to the normal z: about -x.
+  for (const double angle : {1.1, 4.})
+    {
+      const auto edges = "v=0: rotation = " + std::to_string(angle);
+      const auto name  = "rotation " + std::to_string(angle);
+      check_below(name + " prescribed and done",
+                  relative_force("u, v, 0", edges, Vector3{{-angle, 0., 0.}}),
+                  1e-12);
+      check_above(name + " prescribed, the opposite done",
+                  relative_force("u, v, 0", edges, Vector3{{angle, 0., 0.}}),
+                  1e-3);
+    }
+  // The plane's edge turns within it; that the surface meets the plane at an
+  // angle is no matter. A rotation out of the plane is not free.
+  const std::string vault = "u, v + 0.2*v^2, 0.5*abs(u) + 0.3*u^2 - 0.3*u*v";
+  for (const double angle : {1.7, 3.5})
+    check_below("symmetry plane, rotation " + std::to_string(angle) + " in it",
+                relative_force(vault,
+                               "v=0: symmetry",
+                               Vector3{{0., angle, 0.}}),
+                1e-12);
+  check_above("symmetry plane, rotation about its edge",
+              relative_force("u, v, 0",
+                             "v=0: symmetry",
+                             Vector3{{0.7, 0., 0.}}),
+              1e-3);
+}
+
+// --------------------------------------------------------------------- at rest
+
+void
+test_linearisation()
+{
+  for (const auto &element : {Element{ElementType::lagrange, 2},
+                              Element{ElementType::lagrange, 3},
+                              Element{ElementType::serendipity, 2},
+                              Element{ElementType::triangle, 2}})
+    for (const auto strain :
+         {MembraneStrain::tied, MembraneStrain::full, MembraneStrain::reduced})
+      {
+        const Shell shell(creased_text("u=0: clamped; v=0: rotation = 0"),
+                          element);
+        const auto  name = case_name(element, strain);
+        const auto  u    = zero_vector(*shell.discretization);
+        const auto  linear =
+          dense_tangent(*shell.discretization, *shell.make_operator(strain), u);
+        for (const auto tangent :
+             {TangentType::frozen, TangentType::consistent})
+          {
+            const auto [matrix, force] =
+              dense_tangent(*shell.discretization,
+                            *shell.make_operator(corotational(strain, tangent)),
+                            u);
+            check_below(name + tangent_type_names()[static_cast<int>(tangent)] +
+                          " tangent at rest is the linear matrix",
+                        relative_difference(matrix, linear.first),
+                        1e-13);
+            check_below(name + "no force at rest",
+                        force.linfty_norm() / matrix.linfty_norm(),
+                        1e-15);
+          }
+      }
+}
+
+// --------------------------------------------------------------------- tangent
+
+/** The internal forces of the whole shell, by the kernels' templates. */
+class ComplexForces
+{
+public:
+  ComplexForces(const Shell &shell, const KinematicsOptions &options)
+    : shell_(shell)
+    , penalty_(*shell.discretization,
+               *shell.section,
+               cell_quadrature(shell.discretization->element(),
+                               options.membrane_strain),
+               7.)
+    , values_(*shell.discretization,
+              cell_quadrature(shell.discretization->element(),
+                              options.membrane_strain),
+              options.membrane_strain == MembraneStrain::tied)
+    , edge_(*shell.discretization)
+  {}
+
+  std::vector<Complex>
+  at(const std::vector<Complex> &u)
+  {
+    std::vector<Complex> force(u.size());
+    for (const auto &cell :
+         shell_.discretization->dof_handler().active_cell_iterators())
+      {
+        add_cell(cell, u, force);
+        for (const auto f : cell->face_indices())
+          if (cell->at_boundary(f))
+            {
+              const auto condition =
+                shell_.conditions->edges().find(cell->face(f)->boundary_id());
+              if (condition == shell_.conditions->edges().end() ||
+                  condition->second.rotation == nullptr)
+                continue;
+              edge_.reinit(cell, f);
+              add_edge(penalty_.boundary(cell),
+                       condition->second.rotation.get(),
+                       u,
+                       force);
+            }
+          else if (cell < cell->neighbor(f))
+            {
+              edge_.reinit(cell,
+                           f,
+                           none,
+                           cell->neighbor(f),
+                           cell->neighbor_of_neighbor(f),
+                           none);
+              add_edge(penalty_.interior(cell, cell->neighbor(f)),
+                       nullptr,
+                       u,
+                       force);
+            }
+      }
+    return force;
+  }
+
+private:
+  void
+  add_cell(const DoFHandler<2, 3>::active_cell_iterator &cell,
+           const std::vector<Complex>                   &u,
+           std::vector<Complex>                         &force)
+  {
+    values_.reinit_frames(cell);
+    CellStiffness stiffness;
+    stiffness.reinit(values_, *shell_.section, 1.);
+    std::vector<types::global_dof_index> dofs(values_.n_dofs());
+    cell->get_dof_indices(dofs);
+    const unsigned int   n_nodes = values_.shapes().n_nodes();
+    NodeVectors<Complex> local(n_nodes), local_force(n_nodes);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        local[a][c] = u[dofs[values_.dof(a, c)]];
+    CorotationalMembrane<Complex> membrane;
+    CorotationalBending<Complex>  bending;
+    membrane.reinit(values_,
+                    membrane_stiffness(values_, stiffness.membrane),
+                    local);
+    bending.reinit(values_, stiffness.bending, local);
+    membrane.add_force(values_, local_force);
+    bending.add_force(values_, local_force);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        force[dofs[values_.dof(a, c)]] += local_force[a][c];
+  }
+
+  void
+  add_edge(const double                penalty,
+           const Expression           *rotation,
+           const std::vector<Complex> &u,
+           std::vector<Complex>       &force)
+  {
+    const unsigned int                  n_nodes = edge_.shapes(0).n_nodes();
+    std::array<NodeVectors<Complex>, 2> local;
+    const auto                         &dofs = edge_.dof_indices();
+    for (unsigned int s = 0; s < edge_.n_sides(); ++s)
+      {
+        local[s].resize(n_nodes);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int c = 0; c < 3; ++c)
+            local[s][a][c] = u[dofs[edge_.dof(s, a, c)]];
+      }
+    CorotationalEdgePoint<Complex> point;
+    for (unsigned int q = 0; q < edge_.n_points(); ++q)
+      {
+        const double angle =
+          rotation == nullptr ? 0. : (*rotation)(edge_.point(q));
+        point.reinit(edge_, q, *shell_.section, penalty, angle, local);
+        for (unsigned int s = 0; s < edge_.n_sides(); ++s)
+          {
+            NodeVectors<Complex> local_force(n_nodes);
+            point.add_force(s, local_force);
+            for (unsigned int a = 0; a < n_nodes; ++a)
+              for (unsigned int c = 0; c < 3; ++c)
+                force[dofs[edge_.dof(s, a, c)]] += local_force[a][c];
+          }
+      }
+  }
+
+  const Shell      &shell_;
+  const EdgePenalty penalty_;
+  ShellCellValues   values_;
+  ShellEdgeValues   edge_;
+};
+
+void
+test_tangent(const Element &element, const MembraneStrain strain)
+{
+  const Shell shell(creased_text("u=0: rotation = 0.7 + 0.2*y; v=0: symmetry; "
+                                 "u=1: clamped"),
+                    element);
+  const auto  options = corotational(strain);
+  const auto  name    = case_name(element, strain);
+
+  // Of order one, and no symmetry left.
+  auto         u = interpolate(*shell.discretization, some_field);
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> noise(-0.05, 0.05);
+  for (unsigned int i = 0; i < u.size(); ++i)
+    u(i) = u(i) + noise(generator);
+  u.compress(VectorOperation::insert);
+  const auto [matrix, force] =
+    dense_tangent(*shell.discretization, *shell.make_operator(options), u);
+
+  ComplexForces        forces(shell, options);
+  std::vector<Complex> u_complex(u.size());
+  for (unsigned int i = 0; i < u.size(); ++i)
+    u_complex[i] = u(i);
+  FullMatrix<double> derivative(u.size(), u.size());
+  constexpr double   step = 1e-30;
+  for (unsigned int j = 0; j < u.size(); ++j)
+    {
+      u_complex[j] += Complex(0., step);
+      const auto f = forces.at(u_complex);
+      u_complex[j] = u_complex[j].real();
+      for (unsigned int i = 0; i < u.size(); ++i)
+        derivative(i, j) = f[i].imag() / step;
+    }
+  const auto f     = forces.at(u_complex);
+  double     error = 0.;
+  for (unsigned int i = 0; i < u.size(); ++i)
+    error = std::max(error, std::abs(f[i].real() - force[i]));
+  check_below(name + "force", error / force.linfty_norm(), 1e-13);
+  check_below(name + "consistent tangent, largest error",
+              relative_difference(matrix, derivative),
+              1e-10);
+  const auto symmetric =
+    dense_tangent(*shell.discretization,
+                  *shell.make_operator(
+                    corotational(strain, TangentType::symmetric)),
+                  u);
+  FullMatrix<double> symmetric_part(derivative);
+  symmetric_part.symmetrize();
+  check_below(name + "symmetric tangent",
+              relative_difference(symmetric.first, symmetric_part),
+              1e-10);
+  const auto frozen =
+    dense_tangent(*shell.discretization,
+                  *shell.make_operator(
+                    corotational(strain, TangentType::frozen)),
+                  u);
+  FullMatrix<double> transposed(frozen.first);
+  transposed.copy_transposed(frozen.first);
+  check_below(name + "frozen tangent is symmetric",
+              relative_difference(frozen.first, transposed),
+              1e-13);
+  check_above(name + "frozen tangent is another",
+              relative_difference(frozen.first, derivative),
+              1e-2);
+}
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  {
+    const Parameters parameters(section_text(100., 0.3, 0.2));
+    test_rigid_motion(parameters);
+  }
+  test_rigid_motion_with_conditions();
+  test_linearisation();
+  test_tangent({ElementType::lagrange, 2}, MembraneStrain::tied);
+  test_tangent({ElementType::lagrange, 2}, MembraneStrain::full);
+  test_tangent({ElementType::lagrange, 3}, MembraneStrain::tied);
+  test_tangent({ElementType::triangle, 2}, MembraneStrain::tied);
+  test_tangent({ElementType::serendipity, 2}, MembraneStrain::reduced);
+  return n_failures > 0;
+}
