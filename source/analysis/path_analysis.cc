@@ -127,23 +127,21 @@ namespace Nacre
                          const double     dt,
                          const bool       line_search)
   {
-    Attempt    attempt = parameters_.type == AnalysisType::dynamic ?
-                           dynamic_step(state, dt, line_search) :
-                           static_step(state, dt, line_search);
-    const auto check   = [&]() {
-      if (!attempt.result.converged)
-        return;
-      attempt.result.reason =
-        find_impossible_deformation(system_.discretization(),
-                                    system_.with_ghosts(state.motion.u),
-                                    system_.with_ghosts(attempt.motion.u));
-      attempt.result.converged = attempt.result.reason.empty();
-    };
-    check();
+    Attempt attempt = parameters_.type == AnalysisType::dynamic ?
+                        dynamic_step(state, dt, line_search) :
+                        static_step(state, dt, line_search);
+    if (attempt.result.converged)
+      {
+        attempt.result.reason =
+          find_impossible_deformation(system_.discretization(),
+                                      system_.with_ghosts(state.motion.u),
+                                      system_.with_ghosts(attempt.motion.u));
+        attempt.result.converged = attempt.result.reason.empty();
+      }
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
     if (parameters_.type == AnalysisType::relaxation && unstable)
-      attempt = relax(state);
+      attempt = relax(state, dt);
     return attempt;
   }
 
@@ -211,61 +209,59 @@ namespace Nacre
   }
 
   PathAnalysis::Attempt
-  PathAnalysis::relax(const PathState &state)
+  PathAnalysis::relax(const PathState &state, const double dt)
   {
-    auto parameters           = parameters_.newton;
-    parameters.max_increment  = 100. * system_.size();
-    parameters.max_iterations = std::max(8U, parameters.max_iterations / 2);
-    const NewtonSolver newton(parameters);
+    system_.set_time(state.time + dt);
+    const unsigned int max_iterations = 40 * parameters_.newton.max_iterations;
+    const double       softest =
+      1e-10 * system_.stiffness_to_mass(state.motion.u, *mass_);
 
-    Attempt            attempt{{}, state.motion};
-    MotionState        rest       = state.motion;
-    unsigned int       iterations = 0;
-    const unsigned int max_steps  = 400;
-    // sigma = 1/dt^2, from stiff to soft.
-    double sigma = system_.stiffness_to_mass(state.motion.u, *mass_) * 1e-6;
-    const double initial_sigma = sigma;
-    for (unsigned int k = 0; k < max_steps; ++k)
+    Attempt      attempt{{}, state.motion};
+    Vector      &u     = attempt.motion.u;
+    Vector       du    = system_.owned_vector();
+    const Vector rest  = system_.with_ghosts(du);
+    double       sigma = 0., largest_change = 0.;
+    bool         rejected   = false;
+    auto        &iterations = attempt.result.iterations;
+    auto        &step       = attempt.result.last;
+    for (iterations = 0; iterations < max_iterations;)
       {
-        const bool   free      = (sigma < 1e-9 * initial_sigma);
-        const double mu        = free ? 0. : sigma;
-        Vector       u         = rest.u;
-        const auto   linearise = [&](const Vector &trial, Vector &du) {
-          if (mu == 0.)
-            return system_.solve_linearised(trial, du);
-          Vector w(trial);
-          w -= rest.u;
-          w *= mu;
-          const Vector  ghosted = system_.with_ghosts(w);
-          const Inertia terms{*mass_, ghosted, mu};
-          return system_.solve_linearised(trial, trial, du, &terms, 1.);
-        };
-        auto result = newton.solve(u, linearise);
-        iterations += result.iterations;
-        const bool good =
-          result.converged && result.last.n_negative_pivots == 0 &&
-          find_impossible_deformation(system_.discretization(),
-                                      system_.with_ghosts(rest.u),
-                                      system_.with_ghosts(u))
-            .empty();
-        if (good && free)
+        const Inertia inertia{*mass_, rest, sigma};
+        step = system_.solve_linearised(u, u, du, &inertia, 1.);
+        ++iterations;
+        // The first increment brings the prescribed displacements.
+        const bool first = (iterations == 1);
+        bool       good  = first || step.n_negative_pivots == 0;
+        double     share = 1.;
+        if (good && !first)
           {
-            attempt.result            = result;
-            attempt.result.iterations = iterations;
-            attempt.motion.u          = u;
-            return attempt;
+            Vector trial(u);
+            trial += du;
+            share = system_.work(trial, du) / step.work;
+            good  = std::isfinite(share) && share > -0.5 &&
+                   du.linfty_norm() < system_.size();
           }
-        if (good)
+        if (!good)
           {
-            rest.u = u;
-            sigma *= 0.25;
+            sigma    = std::max(4. * sigma, softest);
+            rejected = true;
+            continue;
           }
-        else
-          sigma = 8. * std::max(sigma, 1e-9 * initial_sigma);
-        if (sigma > 1e12 * initial_sigma)
+        u += du;
+        largest_change = std::max(largest_change, du.linfty_norm());
+        // Changes of a whole path: a step's tolerance would be too tight.
+        attempt.result.converged =
+          !first && sigma == 0. &&
+          du.linfty_norm() <=
+            100. * parameters_.newton.increment_tolerance * largest_change;
+        if (attempt.result.converged)
           break;
+        // Longer steps, carefully where a longer one has just failed.
+        sigma *= rejected ? 0.7 : 0.25;
+        rejected = false;
+        if (sigma < softest)
+          sigma = 0.;
       }
-    attempt.result.iterations = iterations;
     attempt.result.reason = "the dynamic relaxation found no stable state in " +
                             std::to_string(iterations) + " iterations";
     return attempt;

@@ -129,8 +129,8 @@ namespace Nacre
     , loads_(loads)
     , penalty_(discretization,
                section,
-               cell_quadrature(discretization.element(),
-                               kinematics_options.membrane_strain),
+               // Strains that vanish at few points only must not count as none.
+               discretization.element().full_quadrature(),
                eta)
     , kinematics_(make_kinematics(discretization, section, kinematics_options))
     , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
