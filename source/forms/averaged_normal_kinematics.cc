@@ -34,17 +34,18 @@ namespace Nacre
                                  t_minus,
                                  NACRE_MUTABLE(averaged_mean, t_plus, t_minus));
 
-    stiffness_ = section.stiffness(edge_frame, edge.point(q)).bending;
+    stiffness_ = 0.;
     normal_jump_.reinit(3, edge.n_dofs());
     mean_moment_.reinit(3, edge.n_dofs());
     for (unsigned int side = 0; side < 2; ++side)
-      add_side(edge, side, q, edge_frame);
+      add_side(edge, side, q, section, edge_frame);
   }
 
   void
   AveragedNormalPoint::add_side(const ShellEdgeValues &edge,
                                 const unsigned int     side,
                                 const unsigned int     q,
+                                const SectionLaw      &section,
                                 const SurfaceFrame<>  &edge_frame)
   {
     const auto &frame  = edge.frame(side, q);
@@ -59,8 +60,10 @@ namespace Nacre
     const double sign =
       side == 0 ? NACRE_MUTABLE(averaged_jump_minus, -1., 1.) : 1.;
     const double sigma = NACRE_MUTABLE(averaged_sigma, edge.sigma(side, q), 1.);
-    const auto   stiffness =
-      NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * stiffness_;
+    // Regions of different sections may meet here.
+    const auto H_m = section.stiffness(edge_frame, edge.point(q, side)).bending;
+    stiffness_ += 0.5 * H_m;
+    const auto stiffness = NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * H_m;
 
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       {

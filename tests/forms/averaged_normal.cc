@@ -10,6 +10,35 @@
 
 using namespace Tests;
 
+/** Twice as stiff in cells of the region 1. */
+class RegionSection : public LinearElasticSection
+{
+public:
+  SectionStiffness
+  stiffness(const SurfaceFrame<> &frame,
+            const SectionPoint   &point) const override
+  {
+    const auto   both   = LinearElasticSection::stiffness(frame, point);
+    const double factor = 1. + point.region();
+    return {factor * both.membrane, factor * both.bending};
+  }
+};
+
+struct RegionParameters : NoParameters
+{
+  RegionParameters()
+  {
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(section_text(100., 0.3, 1.));
+    ParameterAcceptor::parse_all_parameters();
+    section.prepare({});
+  }
+
+  RegionSection      section;
+  BoundaryConditions conditions;
+  Loads              loads;
+};
+
 /** 3 x 3 cells of [0, 3]^2, affine, or distorted. */
 Mesh
 patch_mesh(const bool distorted)
@@ -53,7 +82,8 @@ creased_mesh()
 /** Matrix with hanging nodes eliminated, residual and energies of a field. */
 struct System
 {
-  System(const Parameters     &parameters,
+  template <typename ParametersType>
+  System(const ParametersType &parameters,
          const Discretization &discretization,
          const EdgeForm        form,
          const VectorField    &field = some_field)
@@ -83,23 +113,43 @@ struct System
   Energies           energies;
 };
 
+template <typename ParametersType>
+void
+compare_with_hinge(const std::string    &name,
+                   const ParametersType &parameters,
+                   const Discretization &discretization)
+{
+  const System averaged(parameters, discretization, EdgeForm::averaged_normal);
+  const System hinge(parameters, discretization, EdgeForm::hinge);
+  check_below(name + ": the hinge form's matrix",
+              relative_difference(averaged.matrix, hinge.matrix),
+              1e-12);
+  check_below(name + ": the hinge form's edge energy",
+              std::abs(averaged.energies.edge / hinge.energies.edge - 1.),
+              1e-11);
+}
+
 void
 test_smooth(const std::string &name,
             const Parameters  &parameters,
             const Mesh        &mesh,
             const unsigned int degree)
 {
-  const auto   discretization = make_discretization(mesh, degree);
-  const System averaged(parameters, *discretization, EdgeForm::averaged_normal);
-  const System hinge(parameters, *discretization, EdgeForm::hinge);
-  check_below(name + ", p = " + std::to_string(degree) +
-                ": the hinge form's matrix",
-              relative_difference(averaged.matrix, hinge.matrix),
-              1e-12);
-  check_below(name + ", p = " + std::to_string(degree) +
-                ": the hinge form's edge energy",
-              std::abs(averaged.energies.edge / hinge.energies.edge - 1.),
-              1e-11);
+  compare_with_hinge(name + ", p = " + std::to_string(degree),
+                     parameters,
+                     *make_discretization(mesh, degree));
+}
+
+/** Sections that jump at the edges: means of both cells' stiffnesses. */
+void
+test_regions()
+{
+  const RegionParameters parameters;
+  const auto discretization = make_discretization(patch_mesh(true), 2);
+  for (const auto &cell :
+       discretization->triangulation().active_cell_iterators())
+    cell->set_material_id(cell->index() % 2);
+  compare_with_hinge("two regions", parameters, *discretization);
 }
 
 void
@@ -247,6 +297,7 @@ int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_regions();
   // So thick that edges count beside the membrane's stiffness.
   const Parameters parameters(section_text(100., 0.3, 1.));
   for (const unsigned int degree : {2, 3})

@@ -106,26 +106,26 @@ report_normal_change(const SurfaceFrame<> &frame, const Shape &N)
   });
 }
 
+/** phi,1, phi,2, phi,11, phi,22, phi,12: points of no symmetry, a flat one. */
+const std::vector<std::array<Vector3, 5>> points = {{{vector(1.1, 0.2, -0.3),
+                                                      vector(0.5, 0.8, 0.4),
+                                                      vector(0.3, -0.7, 0.9),
+                                                      vector(-0.2, 0.6, 1.3),
+                                                      vector(0.4, 0.5, -0.8)}},
+                                                    {{vector(-0.3, 0.9, 0.2),
+                                                      vector(-1.4, -0.2, 0.7),
+                                                      vector(0.1, 0.2, 2.9),
+                                                      vector(-1.2, 0.3, 0.3),
+                                                      vector(0.7, -0.4, 0.6)}},
+                                                    {{vector(2., 0.1, 0.),
+                                                      vector(-0.4, 0.7, 0.),
+                                                      vector(0.2, 0.3, 0.),
+                                                      vector(-0.1, 0.5, 0.),
+                                                      vector(0.4, 0.6, 0.)}}};
+
 void
 test_rows()
 {
-  // Points of no particular symmetry, and a flat one.
-  const std::vector<std::array<Vector3, 5>> points = {
-    {{vector(1.1, 0.2, -0.3),
-      vector(0.5, 0.8, 0.4),
-      vector(0.3, -0.7, 0.9),
-      vector(-0.2, 0.6, 1.3),
-      vector(0.4, 0.5, -0.8)}},
-    {{vector(-0.3, 0.9, 0.2),
-      vector(-1.4, -0.2, 0.7),
-      vector(0.1, 0.2, 2.9),
-      vector(-1.2, 0.3, 0.3),
-      vector(0.7, -0.4, 0.6)}},
-    {{vector(2., 0.1, 0.),
-      vector(-0.4, 0.7, 0.),
-      vector(0.2, 0.3, 0.),
-      vector(-0.1, 0.5, 0.),
-      vector(0.4, 0.6, 0.)}}};
   const Shape N        = {{{0.3, -0.8}}, {{0.7, -0.2, 1.1}}};
   double      membrane = 0., bending = 0., change = 0., without_gamma = 1e300;
   for (const auto &phi : points)

@@ -164,6 +164,10 @@ case("unknown_membrane_strain",
 case("unknown_edge_form",
      ["Edge form", "unknown value 'averaged normals'", "'averaged normal'?"],
      {"Discretization/Edge form": "averaged normals"})
+case("corotational_averaged_normal",
+     ["Discretization/Edge form", "'averaged normal'", "hinge"],
+     {"Discretization/Edge form": "averaged normal",
+      "Discretization/Kinematics": "corotational", "Analysis/Type": "static"})
 
 # --- Constants and expressions ---------------------------------------------
 case("constant_without_value", ["Constants", "'b'", "has no value"],

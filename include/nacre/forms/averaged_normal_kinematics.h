@@ -49,6 +49,7 @@ namespace Nacre
     add_side(const ShellEdgeValues &edge,
              const unsigned int     side,
              const unsigned int     q,
+             const SectionLaw      &section,
              const SurfaceFrame<>  &edge_frame);
 
     FullMatrix<double> normal_jump_;
