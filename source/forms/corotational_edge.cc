@@ -5,6 +5,23 @@
 
 namespace Nacre
 {
+  namespace
+  {
+    /** Displacements of a side's nodes; zero if @p u is empty. */
+    void
+    extract_edge_nodes(const ShellEdgeValues &edge,
+                       const unsigned int     side,
+                       const Vector<double>  &u,
+                       NodeVectors<double>   &nodes)
+    {
+      nodes.assign(edge.shapes(side).n_nodes(), Tensor<1, spacedim>());
+      if (u.size() != 0)
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            nodes[a][c] = u[edge.dof(side, a, c)];
+    }
+  } // namespace
+
   void
   CorotationalKinematics::add_edge_terms(const ShellEdgeValues &edge,
                                          const double           penalty,
@@ -30,11 +47,7 @@ namespace Nacre
     const unsigned int n_nodes  = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
-        edge_u_[s].assign(n_nodes, Tensor<1, spacedim>());
-        if (u.size() != 0)
-          for (unsigned int a = 0; a < n_nodes; ++a)
-            for (unsigned int c = 0; c < spacedim; ++c)
-              edge_u_[s][a][c] = u[edge.dof(s, a, c)];
+        extract_edge_nodes(edge, s, u, edge_u_[s]);
         if (terms.wants_tangent)
           {
             edge_shape_rows_[s].reinit(2 * n_points, n_nodes, true);
@@ -203,5 +216,42 @@ namespace Nacre
           for (unsigned int j = 0; j < n; ++j)
             row[j] += entry[j];
         }
+  }
+
+  void
+  CorotationalKinematics::add_moment_terms(const ShellEdgeValues     &edge,
+                                           const std::vector<double> &moment,
+                                           const Vector<double>      &u,
+                                           LocalTerms                &terms)
+  {
+    const auto             &shapes = edge.shapes(0);
+    FollowingMoment<double> load;
+    extract_edge_nodes(edge, 0, u, edge_u_[0]);
+    force_.assign(shapes.n_nodes(), Tensor<1, spacedim>());
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        load.reinit(edge, q, moment[q], edge_u_[0]);
+        load.add_force(edge, q, force_);
+        if (!terms.wants_tangent || !is_consistent())
+          continue;
+        const auto X = load.derivative();
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+            {
+              Tensor<2, spacedim> K;
+              for (unsigned int alpha = 0; alpha < 2; ++alpha)
+                for (unsigned int g = 0; g < 2; ++g)
+                  K +=
+                    (shapes.gradient(q, a)[alpha] * shapes.gradient(q, b)[g]) *
+                    X[alpha][g];
+              for (unsigned int c = 0; c < spacedim; ++c)
+                for (unsigned int d = 0; d < spacedim; ++d)
+                  terms.tangent(edge.dof(0, a, c), edge.dof(0, b, d)) +=
+                    K[c][d];
+            }
+      }
+    for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[edge.dof(0, a, c)] += force_[a][c];
   }
 } // namespace Nacre

@@ -193,4 +193,22 @@ namespace Nacre
     if (terms.wants_tangent)
       test_rows_.Tmmult(terms.tangent, trial_rows_, true);
   }
+
+  void
+  LinearKinematics::add_moment_terms(const ShellEdgeValues     &edge,
+                                     const std::vector<double> &moment,
+                                     const Vector<double> & /*u*/,
+                                     LocalTerms &terms)
+  {
+    HingeSide hinge;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        hinge.reinit(edge, 0, q, section_);
+        const double m = edge.JxW(q) * moment[q];
+        for (unsigned int a = 0; a < hinge.rotation.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            terms.residual[edge.dof(0, a, c)] +=
+              m * hinge.rotation[a] * hinge.t0[c];
+      }
+  }
 } // namespace Nacre

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
-#include <nacre/forms/hinge_form.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
@@ -438,38 +437,38 @@ namespace Nacre
                                                scratch.u,
                                                face.terms);
       }
-    subtract_edge_loads(id, scratch.edge, face.terms.residual);
+    add_edge_loads(id,
+                   scratch.edge,
+                   scratch.u,
+                   *scratch.kinematics,
+                   face.terms);
   }
 
   void
-  ShellOperator::subtract_edge_loads(const types::boundary_id id,
-                                     const ShellEdgeValues   &edge,
-                                     dealii::Vector<double>  &residual) const
+  ShellOperator::add_edge_loads(const types::boundary_id      id,
+                                const ShellEdgeValues        &edge,
+                                const dealii::Vector<double> &u,
+                                Kinematics                   &kinematics,
+                                LocalTerms                   &terms) const
   {
-    const auto force  = loads_.edge_forces().find(id);
     const auto moment = loads_.edge_moments().find(id);
-    HingeSide  hinge;
+    if (moment != loads_.edge_moments().end())
+      {
+        std::vector<double> values(edge.n_points());
+        for (unsigned int q = 0; q < values.size(); ++q)
+          values[q] = moment->second(edge.point(q));
+        kinematics.add_moment_terms(edge, values, u, terms);
+      }
+    const auto force = loads_.edge_forces().find(id);
+    if (force == loads_.edge_forces().end())
+      return;
+    const auto &shapes = edge.shapes(0);
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        const auto         &shapes = edge.shapes(0);
-        Tensor<1, spacedim> f;
-        if (force != loads_.edge_forces().end())
-          f = edge.JxW(q) * force->second(edge.point(q));
-        double m = 0.;
-        if (moment != loads_.edge_moments().end())
-          {
-            m = edge.JxW(q) * moment->second(edge.point(q));
-            hinge.reinit(edge, 0, q, section_);
-          }
+        const auto f = edge.JxW(q) * force->second(edge.point(q));
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
-            {
-              const unsigned int i = edge.dof(0, a, c);
-              residual[i] -= shapes.value(q, a) * f[c];
-              // l(v) = -int m theta(v)
-              if (m != 0.)
-                residual[i] += m * hinge.rotation[a] * hinge.t0[c];
-            }
+            terms.residual[edge.dof(0, a, c)] -= shapes.value(q, a) * f[c];
       }
   }
 

@@ -218,16 +218,11 @@ public:
         for (const auto f : cell->face_indices())
           if (cell->at_boundary(f))
             {
-              const auto condition =
-                shell_.conditions->edges().find(cell->face(f)->boundary_id());
-              if (condition == shell_.conditions->edges().end() ||
-                  condition->second.rotation == nullptr)
-                continue;
               edge_.reinit(cell, f);
-              add_edge(penalty_.boundary(cell),
-                       condition->second.rotation.get(),
-                       u,
-                       force);
+              add_boundary(penalty_.boundary(cell),
+                           cell->face(f)->boundary_id(),
+                           u,
+                           force);
             }
           else if (cell < cell->neighbor(f))
             {
@@ -276,21 +271,38 @@ private:
   }
 
   void
+  add_boundary(const double                penalty,
+               const types::boundary_id    id,
+               const std::vector<Complex> &u,
+               std::vector<Complex>       &force)
+  {
+    const auto condition = shell_.conditions->edges().find(id);
+    if (condition != shell_.conditions->edges().end() &&
+        condition->second.rotation != nullptr)
+      add_edge(penalty, condition->second.rotation.get(), u, force);
+    const auto moment = shell_.loads->edge_moments().find(id);
+    if (moment == shell_.loads->edge_moments().end())
+      return;
+    const auto               local = edge_nodes(0, u);
+    NodeVectors<Complex>     local_force(local.size());
+    FollowingMoment<Complex> load;
+    for (unsigned int q = 0; q < edge_.n_points(); ++q)
+      {
+        load.reinit(edge_, q, moment->second(edge_.point(q)), local);
+        load.add_force(edge_, q, local_force);
+      }
+    add_nodes(0, local_force, force);
+  }
+
+  void
   add_edge(const double                penalty,
            const Expression           *rotation,
            const std::vector<Complex> &u,
            std::vector<Complex>       &force)
   {
-    const unsigned int                  n_nodes = edge_.shapes(0).n_nodes();
     std::array<NodeVectors<Complex>, 2> local;
-    const auto                         &dofs = edge_.dof_indices();
     for (unsigned int s = 0; s < edge_.n_sides(); ++s)
-      {
-        local[s].resize(n_nodes);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int c = 0; c < 3; ++c)
-            local[s][a][c] = u[dofs[edge_.dof(s, a, c)]];
-      }
+      local[s] = edge_nodes(s, u);
     CorotationalEdgePoint<Complex> point;
     for (unsigned int q = 0; q < edge_.n_points(); ++q)
       {
@@ -299,13 +311,31 @@ private:
         point.reinit(edge_, q, *shell_.section, penalty, angle, local);
         for (unsigned int s = 0; s < edge_.n_sides(); ++s)
           {
-            NodeVectors<Complex> local_force(n_nodes);
+            NodeVectors<Complex> local_force(local[s].size());
             point.add_force(s, local_force);
-            for (unsigned int a = 0; a < n_nodes; ++a)
-              for (unsigned int c = 0; c < 3; ++c)
-                force[dofs[edge_.dof(s, a, c)]] += local_force[a][c];
+            add_nodes(s, local_force, force);
           }
       }
+  }
+
+  NodeVectors<Complex>
+  edge_nodes(const unsigned int side, const std::vector<Complex> &u) const
+  {
+    NodeVectors<Complex> nodes(edge_.shapes(side).n_nodes());
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        nodes[a][c] = u[edge_.dof_indices()[edge_.dof(side, a, c)]];
+    return nodes;
+  }
+
+  void
+  add_nodes(const unsigned int          side,
+            const NodeVectors<Complex> &nodes,
+            std::vector<Complex>       &vector) const
+  {
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        vector[edge_.dof_indices()[edge_.dof(side, a, c)]] += nodes[a][c];
   }
 
   const Shell      &shell_;
@@ -317,11 +347,13 @@ private:
 void
 test_tangent(const Element &element, const MembraneStrain strain)
 {
-  const Shell shell(creased_text("u=0: rotation = 0.7 + 0.2*y; v=0: symmetry; "
-                                 "u=1: clamped"),
-                    element);
-  const auto  options = corotational(strain);
-  const auto  name    = case_name(element, strain);
+  const Shell shell(
+    creased_text("u=0: rotation = 0.7 + 0.2*y; v=0: symmetry; "
+                 "u=1: clamped") +
+      "subsection Loads\n set Edge moments = v=1: 0.3 + x\nend\n",
+    element);
+  const auto options = corotational(strain);
+  const auto name    = case_name(element, strain);
 
   // Of order one, and no symmetry left.
   auto         u = interpolate(*shell.discretization, some_field);

@@ -217,6 +217,10 @@ namespace Nacre
       const double        sigma = edge.sigma(1, q);
       Tensor<1, spacedim> mean0 =
         sides_[0].hinge.t0 + sigma * sides_[1].hinge.t0;
+      AssertThrow(mean0.norm() > 1e-8,
+                  ExcMessage("Discretization/Kinematics: corotational: two "
+                             "cells of the undeformed surface are folded onto "
+                             "each other; the mean of their normals is zero."));
       t_e_              = mean0 / mean0.norm();
       b0_               = cross_product_3d(t_e_, d0_);
       const Vector mean = sides_[0].deformed.t0 + sigma * sides_[1].deformed.t0;
@@ -263,6 +267,88 @@ namespace Nacre
     Vector              d_, b_, t_;
     Number              stretch_ = 0.;
     Vector              tangent_spin_;
+  };
+
+  /**
+   * A bending moment per undeformed length that stays on the deformed edge:
+   * l(v) = -int m t . dv/dnu ds0, with t the deformed normal and nu the unit
+   * conormal of the deformed edge. The force of a node is g[1] N,1 + g[2] N,2.
+   */
+  template <typename Number>
+  class FollowingMoment
+  {
+  public:
+    using Vector = Tensor<1, spacedim, Number>;
+
+    /** At the point @p q of a boundary edge; @p moment in force. */
+    void
+    reinit(const ShellEdgeValues     &edge,
+           const unsigned int         q,
+           const double               moment,
+           const NodeVectors<Number> &u)
+    {
+      const auto &frame = edge.frame(0, q);
+      const auto  du    = displacement_gradient(edge.shapes(0), q, u);
+      deformed_         = make_surface_frame<Number>(frame.a_cov[0] + du[0],
+                                             frame.a_cov[1] + du[1],
+                                             {});
+      m_                = edge.JxW(q) * moment;
+      const auto  d0    = cross_product_3d(edge.conormal(0, q), frame.t0);
+      const auto &phi   = deformed_.a_cov;
+      tau_              = {{d0 * frame.a_con[0], d0 * frame.a_con[1]}};
+      e_                = tau_[0] * phi[0] + tau_[1] * phi[1];
+      using std::sqrt;
+      // nu = t x e / |e|, with t x phi,1 = j phi^2, t x phi,2 = -j phi^1
+      scale_ = 1. / (deformed_.j0 * sqrt(Number(e_ * e_)));
+      nu_    = {{-scale_ * (e_ * phi[1]), scale_ * (e_ * phi[0])}};
+    }
+
+    /** Add minus the load of each node, as a residual. */
+    void
+    add_force(const ShellEdgeValues &edge,
+              const unsigned int     q,
+              NodeVectors<Number>   &force) const
+    {
+      for (unsigned int a = 0; a < force.size(); ++a)
+        {
+          const auto &dN = edge.shapes(0).gradient(q, a);
+          force[a] += (m_ * (nu_[0] * dN[0] + nu_[1] * dN[1])) * deformed_.t0;
+        }
+    }
+
+    /** Derivative [alpha][g] of g[alpha], to be applied to d(phi,g). */
+    std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2>
+    derivative() const
+    {
+      const auto  &phi     = deformed_.a_cov;
+      const auto  &phi_con = deformed_.a_con;
+      const auto  &t       = deformed_.t0;
+      const Vector stretch = e_ / (e_ * e_);
+      std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2> X;
+      for (unsigned int g = 0; g < 2; ++g)
+        {
+          // d(j |e|) / (j |e|)
+          const Vector scale = NACRE_MUTABLE(moment_stretch, 1., 0.) *
+                               (phi_con[g] + tau_[g] * stretch);
+          Vector dnu_1 = (-scale_ * tau_[g]) * phi[1] - nu_[0] * scale;
+          Vector dnu_2 = (scale_ * tau_[g]) * phi[0] - nu_[1] * scale;
+          (g == 0 ? dnu_2 : dnu_1) += (g == 0 ? 1. : -1.) * scale_ * e_;
+          // dt = -phi^g (t . d(phi,g))
+          X[0][g] = m_ * (outer_product(t, dnu_1) -
+                          nu_[0] * outer_product(phi_con[g], t));
+          X[1][g] = m_ * (outer_product(t, dnu_2) -
+                          nu_[1] * outer_product(phi_con[g], t));
+        }
+      return X;
+    }
+
+  private:
+    SurfaceFrame<Number>  deformed_;
+    double                m_ = 0.;
+    std::array<double, 2> tau_;
+    Vector                e_;
+    Number                scale_ = 0.;
+    std::array<Number, 2> nu_;
   };
 } // namespace Nacre
 

@@ -60,6 +60,12 @@ namespace Nacre
                        const Vector<double>      &u,
                        LocalTerms                &terms) override;
 
+    void
+    add_moment_terms(const ShellEdgeValues     &edge,
+                     const std::vector<double> &moment,
+                     const Vector<double>      &u,
+                     LocalTerms                &terms) override;
+
   private:
     /** The points of one rule and the rows of the tangent that they need. */
     struct CellPoints

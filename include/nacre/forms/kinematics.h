@@ -110,6 +110,17 @@ namespace Nacre
                        const std::vector<double> &rotation,
                        const Vector<double>      &u,
                        LocalTerms                &terms) = 0;
+
+    /**
+     * Terms of the bending moment @p moment[q] per length (force) on a
+     * boundary edge: the load l(v) = -int m theta(v) ds, theta(v) the rotation
+     * about the edge at the displacement @p u.
+     */
+    virtual void
+    add_moment_terms(const ShellEdgeValues     &edge,
+                     const std::vector<double> &moment,
+                     const Vector<double>      &u,
+                     LocalTerms                &terms) = 0;
   };
 
   /** The alternative that @p options name. */

@@ -51,6 +51,12 @@ namespace Nacre
                        const Vector<double>      &u,
                        LocalTerms                &terms) override;
 
+    void
+    add_moment_terms(const ShellEdgeValues     &edge,
+                     const std::vector<double> &moment,
+                     const Vector<double>      &u,
+                     LocalTerms                &terms) override;
+
   protected:
     const Discretization &discretization_;
     const SectionLaw     &section_;

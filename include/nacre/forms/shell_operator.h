@@ -150,9 +150,11 @@ namespace Nacre
                                 LocalTerms                   &terms) const;
 
     void
-    subtract_edge_loads(const types::boundary_id id,
-                        const ShellEdgeValues   &edge,
-                        dealii::Vector<double>  &residual) const;
+    add_edge_loads(const types::boundary_id      id,
+                   const ShellEdgeValues        &edge,
+                   const dealii::Vector<double> &u,
+                   Kinematics                   &kinematics,
+                   LocalTerms                   &terms) const;
 
     /** Add the virtual work of point forces times @p factor. */
     void
