@@ -173,9 +173,8 @@ namespace Nacre
     MeshChecker::check_places() const
     {
       const BoundingBox<3> box(mesh_.nodes);
-      const double         extent =
-        box.get_boundary_points().first.distance(
-          box.get_boundary_points().second);
+      const double         extent = box.get_boundary_points().first.distance(
+        box.get_boundary_points().second);
       const double tolerance = 1e-9 * extent;
       using Box              = std::array<long long, 3>;
       std::map<Box, std::vector<unsigned int>> boxes;

@@ -50,21 +50,30 @@ def check(name, value, holds):
 
 def compare_formats(runs, prm):
     wrong = []
-    built_in = runs.row(prm / "benchmarks" / "scordelis_lo.prm",
-                        "Mid-surface/Subdivisions=4", "Study/Degrees=2",
-                        "Study/Refinements=0")
-    file_name = "Mid-surface/file/File name="
-    for name, overrides in (("roof_gmsh", []),
-                            ("roof_gmsh", [file_name + "roof_v2.msh"]),
-                            ("roof_gmsh", [file_name + "roof_8_nodes.msh"]),
-                            ("roof_vtk", []), ("roof_ucd", []),
-                            ("roof_abaqus", [])):
-        found = difference(runs.row(prm / "meshes" / f"{name}.prm", *overrides),
-                           built_in)
-        wrong += check(" ".join([name, *overrides]), found, found < TOLERANCE)
+    built_in = {element: runs.row(prm / "benchmarks" / "scordelis_lo.prm",
+                                  "Mid-surface/Subdivisions=4",
+                                  "Study/Degrees=2", "Study/Refinements=0",
+                                  f"Discretization/Element={element}")
+                for element in ("Lagrange", "serendipity", "triangle")}
+    for name, element, files in (
+            ("roof_gmsh", "Lagrange", ("roof_v2.msh", "roof_8_nodes.msh")),
+            ("roof_gmsh", "serendipity", ("roof_8_nodes.msh",)),
+            ("roof_gmsh", "triangle", ()), ("roof_triangles", "triangle", ()),
+            ("roof_vtk", "Lagrange", ()), ("roof_ucd", "Lagrange", ()),
+            ("roof_abaqus", "Lagrange", ())):
+        for file in (None, *files):
+            overrides = [f"Discretization/Element={element}"]
+            if file:
+                overrides.append(f"Mid-surface/file/File name={file}")
+            found = difference(
+                runs.row(prm / "meshes" / f"{name}.prm", *overrides),
+                built_in[element])
+            wrong += check(" ".join([name, *overrides]), found,
+                           found < TOLERANCE)
     # the test of the test: another surface of the same cells
     flat = difference(runs.row(prm / "meshes" / "roof_gmsh.prm",
-                               "Mid-surface/file/Curvature=flat"), built_in)
+                               "Mid-surface/file/Curvature=flat"),
+                      built_in["Lagrange"])
     wrong += check("flat is different", flat, flat > 1e-2)
     return wrong
 
