@@ -34,18 +34,25 @@ namespace Nacre
                                  t_minus,
                                  NACRE_MUTABLE(averaged_mean, t_plus, t_minus));
 
-    stiffness_ = section.stiffness(edge_frame, edge.point(q)).bending;
+    stiffness_ = VoigtMatrix<>();
     normal_jump_.reinit(3, edge.n_dofs());
     mean_moment_.reinit(3, edge.n_dofs());
     for (unsigned int side = 0; side < 2; ++side)
-      add_side(edge, side, q, edge_frame);
+      {
+        // The sides may lie in regions of another section each.
+        const auto H_m =
+          section.stiffness(edge_frame, edge.point(q, side)).bending;
+        stiffness_ += 0.5 * H_m;
+        add_side(edge, side, q, edge_frame, H_m);
+      }
   }
 
   void
   AveragedNormalPoint::add_side(const ShellEdgeValues &edge,
                                 const unsigned int     side,
                                 const unsigned int     q,
-                                const SurfaceFrame<>  &edge_frame)
+                                const SurfaceFrame<>  &edge_frame,
+                                const VoigtMatrix<>   &H_m)
   {
     const auto &frame  = edge.frame(side, q);
     const auto &shapes = edge.shapes(side);
@@ -59,8 +66,7 @@ namespace Nacre
     const double sign =
       side == 0 ? NACRE_MUTABLE(averaged_jump_minus, -1., 1.) : 1.;
     const double sigma = NACRE_MUTABLE(averaged_sigma, edge.sigma(side, q), 1.);
-    const auto   stiffness =
-      NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * stiffness_;
+    const auto stiffness = NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * H_m;
 
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       {

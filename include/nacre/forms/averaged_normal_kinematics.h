@@ -44,12 +44,13 @@ namespace Nacre
     }
 
   private:
-    /** Add the part of the @p side, at the point @p q. */
+    /** Add the part of the @p side, of stiffness @p H_m, at the point @p q. */
     void
     add_side(const ShellEdgeValues &edge,
              const unsigned int     side,
              const unsigned int     q,
-             const SurfaceFrame<>  &edge_frame);
+             const SurfaceFrame<>  &edge_frame,
+             const VoigtMatrix<>   &H_m);
 
     FullMatrix<double> normal_jump_;
     FullMatrix<double> mean_moment_;
