@@ -16,7 +16,7 @@ namespace Nacre
                        const SectionLaw     &section)
     : discretization_(discretization)
   {
-    make_matrices([&](const Point<spacedim> &x) {
+    make_matrices([&](const SectionPoint &x) {
       const double       rho = section.density(x);
       std::ostringstream message;
       message << "Section/Density: " << rho << " at the point (" << x
@@ -29,12 +29,12 @@ namespace Nacre
   MassTerms::MassTerms(const Discretization &discretization)
     : discretization_(discretization)
   {
-    make_matrices([](const Point<spacedim> &) { return 1.; });
+    make_matrices([](const SectionPoint &) { return 1.; });
   }
 
   void
   MassTerms::make_matrices(
-    const std::function<double(const Point<spacedim> &)> &area_density)
+    const std::function<double(const SectionPoint &)> &area_density)
   {
     cell_matrices_.resize(discretization_.triangulation().n_active_cells());
     const auto rule = discretization_.element().full_quadrature();
@@ -58,7 +58,8 @@ namespace Nacre
             M.reinit(n, n);
             for (unsigned int q = 0; q < rule.size(); ++q)
               {
-                const double dm = area_density(fe_values.quadrature_point(q)) *
+                const double dm = area_density({fe_values.quadrature_point(q),
+                                                cell->material_id()}) *
                                   fe_values.JxW(q);
                 total_ += dm;
                 for (unsigned int a = 0; a < n; ++a)

@@ -138,7 +138,9 @@ namespace Nacre
       {
         auto projection = make_projection(input, curvature);
         check_distances(mesh, *projection, curvature);
-        surface.map = make_chart_map(
+        // Cells are as good on the surface as they are close to it.
+        surface.is_checked = true;
+        surface.map        = make_chart_map(
           [projection = std::move(projection)](const Point<3> &point) {
             return (*projection)(point);
           });

@@ -50,21 +50,30 @@ def check(name, value, holds):
 
 def compare_formats(runs, prm):
     wrong = []
-    built_in = runs.row(prm / "benchmarks" / "scordelis_lo.prm",
-                        "Mid-surface/Subdivisions=4", "Study/Degrees=2",
-                        "Study/Refinements=0")
-    file_name = "Mid-surface/file/File name="
-    for name, overrides in (("roof_gmsh", []),
-                            ("roof_gmsh", [file_name + "roof_v2.msh"]),
-                            ("roof_gmsh", [file_name + "roof_8_nodes.msh"]),
-                            ("roof_vtk", []), ("roof_ucd", []),
-                            ("roof_abaqus", [])):
-        found = difference(runs.row(prm / "meshes" / f"{name}.prm", *overrides),
-                           built_in)
-        wrong += check(" ".join([name, *overrides]), found, found < TOLERANCE)
+    built_in = {element: runs.row(prm / "benchmarks" / "scordelis_lo.prm",
+                                  "Mid-surface/Subdivisions=4",
+                                  "Study/Degrees=2", "Study/Refinements=0",
+                                  f"Discretization/Element={element}")
+                for element in ("Lagrange", "serendipity", "triangle")}
+    for name, element, files in (
+            ("roof_gmsh", "Lagrange", ("roof_v2.msh", "roof_8_nodes.msh")),
+            ("roof_gmsh", "serendipity", ("roof_8_nodes.msh",)),
+            ("roof_gmsh", "triangle", ()), ("roof_triangles", "triangle", ()),
+            ("roof_vtk", "Lagrange", ()), ("roof_ucd", "Lagrange", ()),
+            ("roof_abaqus", "Lagrange", ())):
+        for file in (None, *files):
+            overrides = [f"Discretization/Element={element}"]
+            if file:
+                overrides.append(f"Mid-surface/file/File name={file}")
+            found = difference(
+                runs.row(prm / "meshes" / f"{name}.prm", *overrides),
+                built_in[element])
+            wrong += check(" ".join([name, *overrides]), found,
+                           found < TOLERANCE)
     # the test of the test: another surface of the same cells
     flat = difference(runs.row(prm / "meshes" / "roof_gmsh.prm",
-                               "Mid-surface/file/Curvature=flat"), built_in)
+                               "Mid-surface/file/Curvature=flat"),
+                      built_in["Lagrange"])
     wrong += check("flat is different", flat, flat > 1e-2)
     return wrong
 
@@ -114,6 +123,29 @@ def compare_strip(runs, prm):
     return wrong
 
 
+def compare_edge_forms(runs, prm):
+    """On a flat plate the two forms of the edges agree, also where regions of
+    different stiffness meet."""
+    sys.dont_write_bytecode = True
+    sys.path.insert(0, str(prm.parent / "scripts"))
+    import make_meshes  # noqa: E402  (found by the line above)
+    mesh = make_meshes.grid([0., 1., 2., 4.], [0., 1., 1.5],
+                            lambda u, v: (u, v, 0.),
+                            ("clamp", "tip", None, None), 4,
+                            lambda i, j: "wall" if i < 1 else "lid")
+    path = runs.folder / "plate.msh"
+    path.write_text("\n".join(make_meshes.gmsh_2(mesh)) + "\n")
+    common = [f"Mid-surface/file/File name={path}", "Study/Degrees=3",
+              "Study/Refinements=0", "Study/Penalties=20",
+              "Section/Poisson's ratio=0.3",
+              "Quantities/Quantities=w = maximum displacement; U = energy"]
+    forms = [runs.row(prm / "meshes" / "strip.prm", *common,
+                      f"Discretization/Edge form={form}")
+             for form in ("hinge", "averaged normal")]
+    found = difference(*forms)
+    return check("edge forms between regions", found, found < 1e-9)
+
+
 def check_folders(runs, prm):
     """Beside the parameter file first, then in the current folder."""
     wrong = []
@@ -142,6 +174,7 @@ def main():
         wrong = compare_formats(runs, prm)
         wrong += compare_vtk_5(runs, prm)
         wrong += compare_strip(runs, prm)
+        wrong += compare_edge_forms(runs, prm)
         wrong += check_folders(runs, prm)
     return 1 if wrong else 0
 

@@ -325,6 +325,55 @@ namespace
     const double file = distance(make_surface(content, "file"));
     report(n_nodes > 4 ? file < 1e-3 : std::abs(file - flat) < 1e-12,
            name + "as the file says");
+
+    // The nearest point lies straight outward.
+    const auto curved = make_surface(content, "cylinder");
+    const auto as_is  = make_surface(content, "file");
+    double     aside  = 0.;
+    for (unsigned int k = 0; k < curved.cells().size(); ++k)
+      {
+        const Point<3> x = as_is.position(k, Point<2>(0.2, 0.3));
+        const double   r = std::hypot(x[0], x[1]);
+        aside            = std::max(aside,
+                         curved.position(k, Point<2>(0.2, 0.3))
+                           .distance({2. * x[0] / r, 2. * x[1] / r, x[2]}));
+      }
+    check_below(name + "nearest", aside, 1e-11);
+  }
+
+  using Cell = Triangulation<2, 3>::active_cell_iterator;
+
+  /** The point of a cell at @p t from the vertex @p begin of a side on. */
+  Point<2>
+  point_of_side(const Cell        &cell,
+                const unsigned int side,
+                const unsigned int begin,
+                const double       t)
+  {
+    const auto type = cell->reference_cell();
+    Point<2>   unit;
+    for (const unsigned int end : {0, 1})
+      {
+        const unsigned int v = type.face_to_cell_vertices(side, end, 1);
+        unit += (cell->vertex_index(v) == begin ? 1. - t : t) *
+                Tensor<1, 2>(type.vertex<2>(v));
+      }
+    return unit;
+  }
+
+  /** Between the positions that a cell and its neighbour give. */
+  double
+  distance_at(const Midsurface  &surface,
+              const Cell        &cell,
+              const unsigned int side,
+              const double       t)
+  {
+    const unsigned int begin      = cell->face(side)->vertex_index(0);
+    const Cell         other      = cell->neighbor(side);
+    const unsigned int other_side = cell->neighbor_of_neighbor(side);
+    return surface.position(cell, point_of_side(cell, side, begin, t))
+      .distance(
+        surface.position(other, point_of_side(other, other_side, begin, t)));
   }
 
   /** The mesh of deal.II, on any number of ranks. */
@@ -343,9 +392,14 @@ namespace
     surface.set_files(MPI_COMM_WORLD, "no such folder");
     surface.prepare({});
 
-    const auto          mesh = surface.create_triangulation(MPI_COMM_WORLD, 2);
-    double              mismatch = 0.;
-    std::vector<double> edges(surface.edge_names().size(), 0.);
+    const bool triangles = surface.has_triangles();
+    const auto mesh =
+      surface.create_triangulation(MPI_COMM_WORLD,
+                                   triangles ? ReferenceCells::Triangle :
+                                               ReferenceCells::Quadrilateral,
+                                   2);
+    double                    mismatch = 0.;
+    std::vector<double>       edges(surface.edge_names().size(), 0.);
     std::vector<unsigned int> n_cells(surface.region_names().size(), 0);
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned())
@@ -357,24 +411,16 @@ namespace
                 cell->face(f)->vertex(0).distance(cell->face(f)->vertex(1));
             else
               for (const double t : {0., 0.3, 0.5, 1.})
-                {
-                  const unsigned int g = cell->neighbor_of_neighbor(f);
-                  Point<2>           a, b;
-                  a[f / 2] = f % 2, a[1 - f / 2] = t;
-                  b[g / 2] = g % 2, b[1 - g / 2] = t;
-                  mismatch =
-                    std::max(mismatch,
-                             surface.position(cell, a).distance(
-                               surface.position(cell->neighbor(f), b)));
-                }
+                mismatch = std::max(mismatch, distance_at(surface, cell, f, t));
         }
     const std::string name = std::to_string(n_nodes) + " nodes refined: ";
     check_below(name + "sides meet",
                 Utilities::MPI::max(mismatch, MPI_COMM_WORLD),
                 1e-14);
-    report(Utilities::MPI::sum(n_cells[1], MPI_COMM_WORLD) == 16 * n_v &&
+    const unsigned int n_column = (triangles ? 32 : 16) * n_v;
+    report(Utilities::MPI::sum(n_cells[1], MPI_COMM_WORLD) == n_column &&
              Utilities::MPI::sum(n_cells[2], MPI_COMM_WORLD) ==
-               16 * n_v * (n_u - 1),
+               n_column * (n_u - 1),
            name + "regions");
     std::ostringstream text;
     text.precision(6);
@@ -397,7 +443,7 @@ main(int argc, char **argv)
     test_middles(n_nodes);
   for (const unsigned int n_nodes : {3, 4, 6, 8, 9})
     test_curvature(n_nodes);
-  for (const unsigned int n_nodes : {4, 8, 9})
+  for (const unsigned int n_nodes : {3, 4, 6, 8, 9})
     test_triangulation(n_nodes);
   return n_failures == 0 ? 0 : 1;
 }

@@ -69,7 +69,7 @@ namespace Nacre
     /** @param area_density mass per area at a point */
     void
     make_matrices(
-      const std::function<double(const Point<spacedim> &)> &area_density);
+      const std::function<double(const SectionPoint &)> &area_density);
 
     const Discretization           &discretization_;
     std::vector<FullMatrix<double>> cell_matrices_; // by active cell index

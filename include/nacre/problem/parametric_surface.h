@@ -102,6 +102,11 @@ namespace Nacre
     std::map<Line, unsigned int> edge_of_line;
     /** Names of the regions of cells; the first means no region. */
     std::vector<std::string> regions{""};
+    /**
+     * Whether the maker knows that no cell is degenerate and that cells meet,
+     * where finding out here would be dear.
+     */
+    bool is_checked = false;
     /** What messages call a cell: "cell 17 of 'roof.msh'"; may be empty. */
     std::vector<std::string> cell_names;
   };
