@@ -129,8 +129,7 @@ namespace Nacre
     , loads_(loads)
     , penalty_(discretization,
                section,
-               cell_quadrature(discretization.element(),
-                               kinematics_options.membrane_strain),
+               discretization.element().full_quadrature(),
                eta)
     , kinematics_(make_kinematics(discretization, section, kinematics_options))
   {
