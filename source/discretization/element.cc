@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mutation.h>
 #include <nacre/discretization/element.h>
 #include <nacre/elements/fe_serendipity.h>
 
@@ -68,7 +69,7 @@ namespace Nacre
   {
     if (type == ElementType::triangle)
       return QWitherdenVincentSimplex<dim>(1, false);
-    return QGauss<dim>(degree);
+    return QGauss<dim>(NACRE_MUTABLE(reduced_rule, degree, degree + 1));
   }
 
   Quadrature<1>
