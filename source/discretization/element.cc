@@ -69,7 +69,9 @@ namespace Nacre
   {
     if (type == ElementType::triangle)
       return QWitherdenVincentSimplex<dim>(1, false);
-    return QGauss<dim>(NACRE_MUTABLE(reduced_rule, degree, degree + 1));
+    return NACRE_MUTABLE(reduced_rule,
+                         Quadrature<dim>(QGauss<dim>(degree)),
+                         Quadrature<dim>(QGaussLobatto<dim>(degree)));
   }
 
   Quadrature<1>
