@@ -10,6 +10,7 @@
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -102,6 +103,18 @@ namespace Tests
            "\n set Thickness = " + std::to_string(h) + "\nend\n";
   }
 
+  /** "p = 3" for Lagrange elements, the name of others. */
+  inline std::string
+  label(const Element &element)
+  {
+    return element.type == ElementType::lagrange ?
+             "p = " + std::to_string(element.degree) :
+             element_names()[static_cast<unsigned int>(element.type)];
+  }
+
+  constexpr Element serendipity{ElementType::serendipity, 2};
+  constexpr Element triangle{ElementType::triangle, 2};
+
   /** Coarse cells, vertices in deal.II's order, and a map of space. */
   struct Mesh
   {
@@ -117,6 +130,29 @@ namespace Tests
   using PositionFunction =
     std::function<Point<3>(const Triangulation<2, 3>::cell_iterator &,
                            const Point<2> &)>;
+
+  /** The cells cut in halves, on a mesh that takes triangles. */
+  inline std::unique_ptr<parallel::TriangulationBase<2, 3>>
+  make_triangles(const Mesh &mesh)
+  {
+    Assert(mesh.refined.empty(), ExcNotImplemented());
+    std::vector<CellData<2>> cells;
+    for (const auto &v : mesh.cells)
+      {
+        cells.emplace_back(3);
+        cells.back().vertices = {v[0], v[1], v[3]};
+        cells.emplace_back(3);
+        cells.back().vertices = {v[0], v[3], v[2]};
+      }
+    auto triangulation =
+      std::make_unique<parallel::shared::Triangulation<2, 3>>(
+        MPI_COMM_WORLD,
+        Triangulation<2, 3>::none,
+        true,
+        parallel::shared::Triangulation<2, 3>::partition_zorder);
+    triangulation->create_triangulation(mesh.vertices, cells, SubCellData());
+    return triangulation;
+  }
 
   inline std::unique_ptr<parallel::TriangulationBase<2, 3>>
   make_triangulation(const Mesh &mesh)
@@ -139,24 +175,36 @@ namespace Tests
     return triangulation;
   }
 
-  /** The map of the bilinear interpolation of the vertices. */
+  /** The map of the linear interpolation of the vertices. */
   inline std::unique_ptr<Discretization>
   make_discretization(const Mesh        &mesh,
-                      const unsigned int degree,
+                      const Element     &element,
                       const unsigned int mapping_degree = 0)
   {
     const PositionFunction position = [&](const auto &cell, const auto &unit) {
       Point<3> x;
       for (const unsigned int v : cell->vertex_indices())
-        x += GeometryInfo<2>::d_linear_shape_function(unit, v) *
+        x += cell->reference_cell().d_linear_shape_function(unit, v) *
              Vector3(cell->vertex(v));
       return mesh.map(x);
     };
-    return std::make_unique<Discretization>(make_triangulation(mesh),
+    return std::make_unique<Discretization>(element.type ==
+                                                ElementType::triangle ?
+                                              make_triangles(mesh) :
+                                              make_triangulation(mesh),
                                             position,
-                                            Element{ElementType::lagrange,
-                                                    degree},
+                                            element,
                                             mapping_degree);
+  }
+
+  inline std::unique_ptr<Discretization>
+  make_discretization(const Mesh        &mesh,
+                      const unsigned int degree,
+                      const unsigned int mapping_degree = 0)
+  {
+    return make_discretization(mesh,
+                               Element{ElementType::lagrange, degree},
+                               mapping_degree);
   }
 
   /** A smooth map of the plane that curves it every way. */

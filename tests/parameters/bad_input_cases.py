@@ -158,6 +158,14 @@ case("value_out_of_pattern", ["Mapping degree", "'9'", "not allowed", "6"],
      {"Discretization/Mapping degree": "9"})
 case("unknown_element", ["Element", "unknown value 'Lagrang'", "'Lagrange'?"],
      {"Discretization/Element": "Lagrang"})
+for element in ("serendipity", "triangle"):
+    case(f"{element}_of_degree_3",
+         ["Study/Degrees", f"'{element}'", "of degree 2", "found 3"],
+         {"Discretization/Element": element, "Study/Degrees": "3"})
+    case(f"{element}_mapping_degree_3",
+         ["Discretization/Mapping degree", f"'{element}'", "0 or 2", "found 3"],
+         {"Discretization/Element": element,
+          "Discretization/Mapping degree": "3"})
 case("unknown_membrane_strain",
      ["Membrane strain", "unknown value 'tide'", "'tied'?", "reduced"],
      {"Discretization/Membrane strain": "tide"})

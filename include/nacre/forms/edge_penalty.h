@@ -18,15 +18,20 @@ namespace Nacre
    *
    * The form is coercive if, on both cells K of every edge, eta is at least
    * eta_K = (h^e / 2) lambda_K, lambda_K (1/length) the largest eigenvalue of
-   * the pair (int_dK m_nn^2 / D ds, int_K rho:H_m:rho dA) with the run's own
-   * quadrature. Without a user's eta, twice the larger of both cells' eta_K
-   * is taken, so that eta^e = max lambda_K.
+   * the pair (int_dK m_nn^2 / D ds, int_K rho:H_m:rho dA). Without a user's
+   * eta, twice the larger of both cells' eta_K is taken, so that eta^e = max
+   * lambda_K.
+   *
+   * Reduced bending energies (8-node cells with 2 x 2 points) take the bound of
+   * full integration, too, as an estimate: a curved cell has modes without any
+   * strain at those points but with moments on its edges. Its neighbours alone
+   * hold them, so that no bound of a single cell covers them.
    */
   class EdgePenalty
   {
   public:
     /**
-     * @param quadrature of the bending energy
+     * @param quadrature full integration of the bending energy
      * @param eta the user's eta; none: the bound
      */
     EdgePenalty(const Discretization        &discretization,
