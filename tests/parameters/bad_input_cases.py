@@ -57,6 +57,41 @@ def case(name, expect, settings=None, change=None, prm=BASE, args=(),
                        code=code)
 
 
+# --- Analysis --------------------------------------------------------------
+case("analysis_type", ["Type", "quasistatic", "static"],
+     {"Analysis/Type": "quasistatic"})
+case("analysis_corotational_linear",
+     ["Discretization/Kinematics", "corotational", "Analysis/Type"],
+     {"Discretization/Kinematics": "corotational"})
+case("analysis_time_step", ["Analysis/Time step", "-1", "not positive"],
+     {"Analysis/Type": "static", "Analysis/Time step": "-1"})
+case("analysis_minimum_step", ["Analysis/Minimum time step", "larger"],
+     {"Analysis/Type": "static", "Analysis/Minimum time step": "2"})
+case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],
+     {"Analysis/Type": "static", "Analysis/Maximum time step": "0.01"})
+case("analysis_load_factor", ["Analysis/Load factor", "s"],
+     {"Analysis/Type": "static", "Analysis/Load factor": "2*s"})
+case("analysis_no_density", ["Section/Density", "0", "positive"],
+     {"Analysis/Type": "dynamic"})
+case("analysis_following_linear", ["Loads/Pressure follows", "linear"],
+     {"Loads/Pressure": "1", "Loads/Pressure follows": "true"})
+case("analysis_scheme", ["Scheme", "euler", "implicit euler"],
+     {"Analysis/Type": "dynamic", "Analysis/Scheme": "euler"})
+case("analysis_spectral_radius", ["Spectral radius", "2"],
+     {"Analysis/Type": "dynamic", "Analysis/Spectral radius": "2"})
+case("analysis_time_constant", ["'t'", "time", "constant"],
+     {"Loads/Force per area": "0, 0, -q*t"},
+     change=("set Constants = a = 2, q = 0.01",
+             "set Constants = a = 2, q = 0.01, t = 1"))
+case("analysis_restart_nothing", ["--restart", "no checkpoint", "checkpoint"],
+     {"Analysis/Type": "static"}, args=["--restart"])
+case("analysis_restart_linear", ["--restart", "Analysis/Type"],
+     args=["--restart"])
+case("analysis_no_convergence",
+     ["step 1", "The last good state, at t = 0", "Minimum time step"],
+     {"Analysis/Type": "static", "Discretization/Kinematics": "corotational",
+      "Analysis/Load factor": "1e7*t", "Analysis/Maximum iterations": "2"})
+
 # --- Section ---------------------------------------------------------------
 for name, value in (("negative", "-0.1"), ("zero", "0")):
     case("thickness_" + name,

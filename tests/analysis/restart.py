@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Kill a run with SIGKILL at random moments and restart it until it ends: its
+results are those of a run that was left alone, bit for bit on one rank.
+
+  restart.py NACRE [--ranks N]
+
+Also: a path that can't go on leaves its last good state, and says why.
+"""
+import argparse
+import csv
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import time
+
+PRM = """\
+set Constants = L = 10, b = 1
+subsection Study
+  set Degrees        = 2
+  set Refinements    = 0
+  set Report seconds = false
+end
+subsection Mid-surface
+  set Surface      = plate
+  set Subdivisions = 16, 2
+  subsection plate
+    set Size = L, b
+  end
+end
+subsection Section
+  set Young's modulus = 1.2e6
+  set Poisson's ratio = 0.3
+  set Thickness       = 0.1
+  set Density         = 1
+end
+subsection Discretization
+  set Kinematics = corotational
+end
+subsection Boundary conditions
+  set Edges = u=0: clamped
+end
+subsection Loads
+  set Edge forces = u=1: 0, 0, 2*sin(3*t)
+end
+subsection Analysis
+  set Type             = dynamic
+  set End time         = 1.2
+  set Time step        = 0.02
+  set Checkpoint steps = 3
+  set VTU steps        = 5
+end
+subsection Quantities
+  set Quantities = w = displacement z at (L, b/2, 0); E = total energy
+end
+"""
+N_KILLS = 10
+
+
+def command(arguments, folder, *more):
+    start = (["mpirun", "--oversubscribe", "-np", str(arguments.ranks)]
+             if arguments.ranks > 1 else [])
+    return start + [arguments.nacre, str(folder / "run.prm"), "--set",
+                    f"Study/Output folder={folder / 'out'}", *more]
+
+
+def rows(file):
+    with open(file, encoding="utf-8") as lines:
+        return list(csv.reader(lines))
+
+
+def run(arguments, folder, *more):
+    done = subprocess.run(command(arguments, folder, *more), text=True,
+                          capture_output=True, timeout=250, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+def kill_and_restart(arguments, folder, duration):
+    """Run to the end through N_KILLS kills; returns how many hit a run."""
+    generator = random.Random(31)
+    hits = 0
+    for k in range(N_KILLS + 1):
+        checkpoint = folder / "out" / "run.checkpoint"
+        more = ["--restart"] if checkpoint.exists() else []
+        process = subprocess.Popen(command(arguments, folder, *more),
+                                   stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True)
+        if k < N_KILLS:
+            try:
+                process.wait(generator.uniform(0.2, 0.6) * duration)
+            except subprocess.TimeoutExpired:
+                # All of it: mpirun and its ranks.
+                subprocess.run(["pkill", "-KILL", "-s", str(process.pid)],
+                               check=False)
+                process.kill()
+                hits += 1
+        errors = process.communicate(timeout=250)[1]
+        if k == N_KILLS and process.returncode != 0:
+            sys.exit(f"the last restart failed: {errors}")
+    return hits
+
+
+def compare(found, expected, tolerance):
+    if len(found) != len(expected):
+        sys.exit(f"{len(found)} rows instead of {len(expected)}")
+    for a, b in zip(found, expected):
+        if a == b:
+            continue
+        if tolerance == 0. or a[:2] != b[:2]:
+            sys.exit(f"the row {a} should be {b}")
+        # Iterations and residuals depend on round-off.
+        for x, y in zip(a[6:], b[6:]):
+            if abs(float(x) - float(y)) > tolerance * max(1., abs(float(y))):
+                sys.exit(f"the row {a} should be {b}")
+
+
+def check_failing_path(arguments, folder):
+    """A limit point in statics: the last state is kept."""
+    (folder / "run.prm").write_text(PRM)
+    code, text = run(arguments, folder, "--set", "Analysis/Type=static",
+                     "--set", "Analysis/Load factor=1e6*t",
+                     "--set", "Analysis/Maximum iterations=3",
+                     "--set", "Analysis/Minimum time step=0.005")
+    if code == 0 or "The last good state" not in text or "Try" not in text:
+        sys.exit(f"a failing path: code {code}, said {text}")
+    step = int(rows(folder / "out" / "run_path.csv")[-1][0])
+    if not (folder / "out" / f"run_{step}.vtu").exists() and \
+       not (folder / "out" / f"run_{step}.pvtu").exists():
+        sys.exit(f"the fields of the last good step {step} are missing")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("nacre")
+    parser.add_argument("--ranks", type=int, default=1)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        alone, killed = pathlib.Path(name, "alone"), pathlib.Path(name, "killed")
+        failing = pathlib.Path(name, "failing")
+        for folder in (alone, killed, failing):
+            folder.mkdir()
+            (folder / "run.prm").write_text(PRM)
+        start = time.monotonic()
+        code, text = run(arguments, alone)
+        if code != 0:
+            sys.exit(text)
+        hits = kill_and_restart(arguments, killed, time.monotonic() - start)
+        if hits < N_KILLS // 2:
+            sys.exit(f"only {hits} kills hit a running program")
+        tolerance = 0. if arguments.ranks == 1 else 1e-6
+        compare(rows(killed / "out" / "run_path.csv"),
+                rows(alone / "out" / "run_path.csv"), tolerance)
+        records = [(folder / "out" / "run.pvd").read_text()
+                   for folder in (alone, killed)]
+        if records[0] != records[1]:
+            sys.exit("the .pvd lists other files after restarts")
+        check_failing_path(arguments, failing)
+        print(f"{hits} kills, the same results")
+
+
+if __name__ == "__main__":
+    main()
