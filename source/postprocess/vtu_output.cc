@@ -149,12 +149,15 @@ namespace Nacre
       CellStates(const Discretization                &discretization,
                  const SectionLaw                    &section,
                  const Quadrature<dim>               &points,
-                 const bool                           tied,
+                 const KinematicsOptions             &kinematics,
                  const TrilinosWrappers::MPI::Vector &displacement)
         : section_(section)
+        , is_linear_(kinematics.model == KinematicsModel::linear)
         , displacement_(displacement)
         , rank_(Utilities::MPI::this_mpi_process(discretization.communicator()))
-        , values_(discretization, points, tied)
+        , values_(discretization,
+                  points,
+                  kinematics.membrane_strain != MembraneStrain::full)
         , u_(values_.n_dofs())
         , membrane_strains_(3 * points.size())
         , bending_strains_(3 * points.size())
@@ -163,10 +166,18 @@ namespace Nacre
       void
       reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
       {
-        values_.reinit(cell);
         cell->get_dof_values(displacement_, u_);
-        values_.membrane_rows().vmult(membrane_strains_, u_);
-        values_.bending_rows().vmult(bending_strains_, u_);
+        if (is_linear_)
+          {
+            values_.reinit(cell);
+            values_.membrane_rows().vmult(membrane_strains_, u_);
+            values_.bending_rows().vmult(bending_strains_, u_);
+          }
+        else
+          {
+            values_.reinit_frames(cell);
+            fill_finite_strains();
+          }
       }
 
       Point<spacedim>
@@ -209,7 +220,69 @@ namespace Nacre
       }
 
     private:
+      /** phi,1, phi,2 at the point @p q of a table. */
+      std::array<Vector3, dim>
+      deformed_basis(const SurfaceFrame<> &frame,
+                     const ShapeTable     &shapes,
+                     const unsigned int    q) const
+      {
+        auto phi = frame.a_cov;
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            for (unsigned int alpha = 0; alpha < dim; ++alpha)
+              phi[alpha][c] +=
+                shapes.gradient(q, a)[alpha] * u_[values_.dof(a, c)];
+        return phi;
+      }
+
+      /**
+       * Strains that no rotation changes: 1/2 (phi,a . phi,b - phi0,a .
+       * phi0,b), tied, and -(phi,ab . t) + phi0,ab . t0. For small strains
+       * they are those of the co-rotational form.
+       */
+      void
+      fill_finite_strains()
+      {
+        const auto         &tying = values_.tying();
+        std::vector<double> samples;
+        for (const auto &[point, direction] : tying.samples())
+          {
+            const auto &frame = values_.tying_frame(point);
+            const auto  phi =
+              deformed_basis(frame, values_.tying_shapes(), point);
+            const auto &a = frame.a_cov;
+            samples.push_back(
+              0.5 * direction[0] * (phi[0] * phi[0] - a[0] * a[0]) +
+              0.5 * direction[1] * (phi[1] * phi[1] - a[1] * a[1]) +
+              direction[2] * (phi[0] * phi[1] - a[0] * a[1]));
+          }
+        const auto &shapes = values_.shapes();
+        for (unsigned int q = 0; q < values_.n_points(); ++q)
+          {
+            const auto &frame = values_.frame(q);
+            const auto  phi   = deformed_basis(frame, shapes, q);
+            auto        ddphi = frame.a_cov_derivatives;
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                for (unsigned int v = 0; v < 3; ++v)
+                  ddphi[v][c] +=
+                    shapes.hessian(q, a)[v] * u_[values_.dof(a, c)];
+            const Vector3 area = cross_product_3d(phi[0], phi[1]);
+            for (unsigned int v = 0; v < 3; ++v)
+              {
+                double strain = 0.;
+                for (const auto &[k, weight] : tying.weights(q, v))
+                  strain += weight * samples[k];
+                membrane_strains_[3 * q + v] = strain;
+                bending_strains_[3 * q + v] =
+                  (v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0 -
+                                        ddphi[v] * area / area.norm());
+              }
+          }
+      }
+
       const SectionLaw                    &section_;
+      const bool                           is_linear_;
       const TrilinosWrappers::MPI::Vector &displacement_;
       const unsigned int                   rank_;
       ShellCellValues                      values_;
@@ -232,7 +305,7 @@ namespace Nacre
 
   ShellFields::ShellFields(const Discretization                &discretization,
                            const SectionLaw                    &section,
-                           const MembraneStrain                 membrane_strain,
+                           const KinematicsOptions             &kinematics,
                            const TrilinosWrappers::MPI::Vector &displacement)
   {
     const unsigned int degree = discretization.degree();
@@ -246,7 +319,7 @@ namespace Nacre
     CellStates         states(discretization,
                       section,
                       points,
-                      membrane_strain != MembraneStrain::full,
+                      kinematics,
                       displacement);
     const unsigned int n_components = get_dataset_names().size();
 
@@ -341,7 +414,7 @@ namespace Nacre
   void
   VtuOutput::write(const Discretization                &discretization,
                    const SectionLaw                    &section,
-                   const MembraneStrain                 membrane_strain,
+                   const KinematicsOptions             &kinematics,
                    const TrilinosWrappers::MPI::Vector &ghosted_displacement,
                    const std::string                   &folder,
                    const std::string                   &name,
@@ -367,7 +440,7 @@ namespace Nacre
       const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
       shell_fields            = std::make_unique<ShellFields>(discretization,
                                                    section,
-                                                   membrane_strain,
+                                                   kinematics,
                                                    ghosted_displacement);
       if (n_cells[rank] > 0)
         write_file((path / piece(rank)).string(),

@@ -307,7 +307,7 @@ namespace Nacre
         if (write_vtu_ && problem_.is_linear())
           vtu_output.write(shell.discretization,
                            shell.section,
-                           shell.membrane_strain,
+                           shell.kinematics,
                            shell.displacement,
                            output_folder_,
                            name_,

@@ -98,7 +98,7 @@ namespace Nacre
   {
     vtu_output_.write(shell.discretization,
                       shell.section,
-                      shell.membrane_strain,
+                      shell.kinematics,
                       shell.displacement,
                       options_.folder,
                       options_.name,

@@ -256,15 +256,14 @@ namespace Nacre
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
-    solution_               = std::make_unique<SolvedShell>(
-      SolvedShell{*discretization_,
-                  *section_,
-                  *operator_,
-                  kinematics_options().membrane_strain,
-                  exact_solution_,
-                  displacement_,
-                  residual_,
-                  energies});
+    solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
+                                                          *section_,
+                                                          *operator_,
+                                                          kinematics_options(),
+                                                          exact_solution_,
+                                                          displacement_,
+                                                          residual_,
+                                                          energies});
   }
 
   PathState
@@ -322,17 +321,17 @@ namespace Nacre
       operator_->residual(displacement_,
                           residual_,
                           inertia ? &*inertia : nullptr);
-    solution_ = std::make_unique<SolvedShell>(
-      SolvedShell{*discretization_,
-                  *section_,
-                  *operator_,
-                  kinematics_options().membrane_strain,
-                  exact_solution_,
-                  displacement_,
-                  residual_,
-                  energies,
-                  dynamic ? mass : nullptr,
-                  &velocity_});
+    solution_ =
+      std::make_unique<SolvedShell>(SolvedShell{*discretization_,
+                                                *section_,
+                                                *operator_,
+                                                kinematics_options(),
+                                                exact_solution_,
+                                                displacement_,
+                                                residual_,
+                                                energies,
+                                                dynamic ? mass : nullptr,
+                                                &velocity_});
   }
 
   void

@@ -26,11 +26,11 @@ namespace Nacre
   /** A solved shell, as the quantities see it. */
   struct SolvedShell
   {
-    const Discretization &discretization;
-    const SectionLaw     &section;
-    const ShellOperator  &shell_operator;
-    const MembraneStrain  membrane_strain;
-    const ExactSolution  &exact_solution;
+    const Discretization   &discretization;
+    const SectionLaw       &section;
+    const ShellOperator    &shell_operator;
+    const KinematicsOptions kinematics;
+    const ExactSolution    &exact_solution;
     /** Ghosted displacement (length). */
     const TrilinosWrappers::MPI::Vector &displacement;
     /** K u - f (force) without constraints. */

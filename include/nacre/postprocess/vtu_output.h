@@ -53,12 +53,12 @@ namespace Nacre
                  DataComponentInterpretation::DataComponentInterpretation>;
 
     /**
-     * @param membrane_strain the strains are tied unless this is `full`
+     * @param kinematics the membrane strains are tied unless they are `full`
      * @param displacement ghosted (length)
      */
     ShellFields(const Discretization                &discretization,
                 const SectionLaw                    &section,
-                const MembraneStrain                 membrane_strain,
+                const KinematicsOptions             &kinematics,
                 const TrilinosWrappers::MPI::Vector &displacement);
 
     /**
@@ -97,7 +97,7 @@ namespace Nacre
     void
     write(const Discretization                &discretization,
           const SectionLaw                    &section,
-          const MembraneStrain                 membrane_strain,
+          const KinematicsOptions             &kinematics,
           const TrilinosWrappers::MPI::Vector &ghosted_displacement,
           const std::string                   &folder,
           const std::string                   &name,
@@ -105,7 +105,7 @@ namespace Nacre
     {
       write(discretization,
             section,
-            membrane_strain,
+            kinematics,
             ghosted_displacement,
             folder,
             name,
@@ -117,7 +117,7 @@ namespace Nacre
     void
     write(const Discretization                &discretization,
           const SectionLaw                    &section,
-          const MembraneStrain                 membrane_strain,
+          const KinematicsOptions             &kinematics,
           const TrilinosWrappers::MPI::Vector &ghosted_displacement,
           const std::string                   &folder,
           const std::string                   &name,
