@@ -197,8 +197,7 @@ public:
     : shell_(shell)
     , penalty_(*shell.discretization,
                *shell.section,
-               cell_quadrature(shell.discretization->element(),
-                               options.membrane_strain),
+               shell.discretization->element().full_quadrature(),
                7.)
     , values_(*shell.discretization,
               cell_quadrature(shell.discretization->element(),

@@ -87,10 +87,6 @@ case("analysis_restart_nothing", ["--restart", "no checkpoint", "checkpoint"],
      {"Analysis/Type": "static"}, args=["--restart"])
 case("analysis_restart_linear", ["--restart", "Analysis/Type"],
      args=["--restart"])
-case("analysis_no_convergence",
-     ["step 1", "The last good state, at t = 0", "Minimum time step"],
-     {"Analysis/Type": "static", "Discretization/Kinematics": "corotational",
-      "Analysis/Load factor": "1e7*t", "Analysis/Maximum iterations": "2"})
 
 # --- Section ---------------------------------------------------------------
 for name, value in (("negative", "-0.1"), ("zero", "0")):
