@@ -85,8 +85,13 @@ namespace Nacre
               {
                 text << ". The last good state, at t = " << state.time
                      << ", is kept. Try a smaller 'Analysis/Minimum time "
-                        "step', or 'Type = relaxation' or 'dynamic' if the "
-                        "path has a limit or bifurcation point there.";
+                        "step', or ";
+                if (parameters_.type == AnalysisType::dynamic)
+                  text << "'Scheme = generalised alpha', which damps what the "
+                          "step can't resolve.";
+                else
+                  text << "'Type = relaxation' or 'dynamic' if the path has a "
+                          "limit or bifurcation point there.";
                 return text.str();
               }
             messenger(text.str() + "; trying half the step");
