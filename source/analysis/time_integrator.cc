@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/time_integrator.h>
+#include <nacre/base/mutation.h>
 
 namespace Nacre
 {
@@ -63,7 +64,8 @@ namespace Nacre
     // Newmark's relations
     change.add(-dt, start.v);
     end.a.sadd(1. - 1. / (2. * beta_), 1. / (beta_ * dt * dt), change);
-    end.v.add(dt * (1. - gamma_), start.a, dt * gamma_, end.a);
+    const double gamma = NACRE_MUTABLE(newmark_gamma, gamma_, 0.9 * gamma_);
+    end.v.add(dt * (1. - gamma), start.a, dt * gamma, end.a);
     return end;
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/base/mutation.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
@@ -381,7 +382,8 @@ namespace Nacre
                 {
                   const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
                   const double       w = p * shapes.value(q, a);
-                  terms.tangent(values.dof(a, c), values.dof(b, e)) -= w * m[d];
+                  terms.tangent(values.dof(a, c), values.dof(b, e)) -=
+                    NACRE_MUTABLE(following_tangent, 1., -1.) * w * m[d];
                   terms.tangent(values.dof(a, c), values.dof(b, d)) += w * m[e];
                 }
           }
