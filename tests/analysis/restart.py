@@ -86,6 +86,12 @@ def saved_step(folder):
         return 0
 
 
+def state_bytes(folder):
+    """What the last checkpoint holds for the first rank."""
+    slot = (folder / "out" / "run.checkpoint").read_text().split()[0]
+    return (folder / "out" / f"run.checkpoint.{slot}.0").read_bytes()
+
+
 def wait_for_step(process, folder, step):
     """Whether the run reaches the step before it ends."""
     file = folder / "out" / "run_path.csv"
@@ -170,6 +176,10 @@ def main():
         tolerance = 0. if arguments.ranks == 1 else 1e-6
         compare(rows(killed / "out" / "run_path.csv"),
                 rows(alone / "out" / "run_path.csv"), tolerance)
+        # All 64 bits of displacements, velocities and accelerations.
+        states = [state_bytes(folder) for folder in (alone, killed)]
+        if arguments.ranks == 1 and states[0] != states[1]:
+            sys.exit("the last checkpoints differ")
         records = [[line for line in
                     (folder / "out" / "run.pvd").read_text().splitlines()
                     if "DataSet" in line] for folder in (alone, killed)]
