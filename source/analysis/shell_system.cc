@@ -160,7 +160,7 @@ namespace Nacre
     solver_.solve(du, right_hand_side);
 
     NewtonSolver::Step step;
-    step.n_negative_pivots = solver_.n_negative_pivots();
+    step.n_negative_pivots = *solver_.n_negative_pivots();
     // Rows of constrained dofs hold the prescribed increments.
     for (const auto &line : constraints.get_lines())
       if (discretization_.locally_owned_dofs().is_element(line.index))

@@ -358,13 +358,13 @@ namespace Nacre
     solver.factorize(matrix);
     std::ostringstream message;
     message << "The stiffness matrix is not positive definite: "
-            << solver.n_negative_pivots()
-            << (solver.n_negative_pivots() == 1 ? " negative pivot" :
-                                                  " negative pivots")
+            << *solver.n_negative_pivots()
+            << (*solver.n_negative_pivots() == 1 ? " negative pivot" :
+                                                   " negative pivots")
             << ". Study/Penalties: eta = " << eta()
             << " is too small; the bound is " << operator_->penalty().bound()
             << ".";
-    AssertThrow(solver.n_negative_pivots() == 0, ExcMessage(message.str()));
+    AssertThrow(*solver.n_negative_pivots() == 0, ExcMessage(message.str()));
     const auto accuracy = solver.solve(solution, right_hand_side);
     lap(times_.solve);
     if (accuracy.correction > 1e-5)

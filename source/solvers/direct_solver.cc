@@ -517,7 +517,14 @@ namespace Nacre
   }
 
 
-  unsigned int
+  void
+  DirectSolver::prepare(const LinearSystem &system)
+  {
+    factorize(system.matrix);
+  }
+
+
+  std::optional<unsigned int>
   DirectSolver::n_negative_pivots() const
   {
     Assert(implementation_->is_factorised, ExcNotInitialized());
@@ -527,7 +534,7 @@ namespace Nacre
 
   SolveAccuracy
   DirectSolver::solve(TrilinosWrappers::MPI::Vector       &x,
-                      const TrilinosWrappers::MPI::Vector &b) const
+                      const TrilinosWrappers::MPI::Vector &b)
   {
     Assert(implementation_->is_factorised, ExcNotInitialized());
     Assert(!x.has_ghost_elements() && !b.has_ghost_elements(),

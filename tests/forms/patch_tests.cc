@@ -108,7 +108,7 @@ test_patch(const Case &patch, const bool passes = true)
     check_below(patch.name, error, patch.tolerance);
   else
     check_above(patch.name + ": no", error, patch.tolerance);
-  check_below(patch.name + ": negative pivots", solver.n_negative_pivots(), 1);
+  check_below(patch.name + ": negative pivots", *solver.n_negative_pivots(), 1);
 
   test_residual(patch.name, shell_operator, constraints, u);
 }

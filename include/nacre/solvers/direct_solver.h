@@ -4,38 +4,14 @@
 #ifndef nacre_solvers_direct_solver_h
 #define nacre_solvers_direct_solver_h
 
-#include <nacre/base/types.h>
+#include <nacre/solvers/linear_solver.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <memory>
 
-namespace dealii
-{
-  namespace TrilinosWrappers
-  {
-    class SparseMatrix;
-    namespace MPI
-    {
-      class Vector;
-    }
-  } // namespace TrilinosWrappers
-} // namespace dealii
-
 namespace Nacre
 {
-  /** How exact a solution of a linear system is. */
-  struct SolveAccuracy
-  {
-    /** Componentwise, see DirectSolver::solve(). */
-    double backward_error = 0.;
-    /**
-     * |dx| / |x| of the first step of refinement: what the condition number
-     * made of round-off; the digits of the solution are about -log10 of it.
-     */
-    double correction = 0.;
-  };
-
   /**
    * Sparse L D L^T of a symmetric matrix by MUMPS (SYM = 2) on any number of
    * ranks, without pivoting unless a pivot (nearly) vanishes by accident, as
@@ -44,11 +20,11 @@ namespace Nacre
    * sides. The number of negative pivots (negative eigenvalues) tells whether
    * the matrix is positive definite.
    */
-  class DirectSolver
+  class DirectSolver : public LinearSolver
   {
   public:
     explicit DirectSolver(const MPI_Comm communicator);
-    ~DirectSolver();
+    ~DirectSolver() override;
 
     DirectSolver(const DirectSolver &) = delete;
     DirectSolver &
@@ -64,9 +40,13 @@ namespace Nacre
     void
     factorize(const TrilinosWrappers::SparseMatrix &matrix);
 
+    /** factorize() its matrix. */
+    void
+    prepare(const LinearSystem &system) override;
+
     /** Number of negative pivots of the last factorisation. */
-    unsigned int
-    n_negative_pivots() const;
+    std::optional<unsigned int>
+    n_negative_pivots() const override;
 
     /**
      * Solve with iterative refinement, one to three steps, until the
@@ -77,7 +57,7 @@ namespace Nacre
      */
     SolveAccuracy
     solve(TrilinosWrappers::MPI::Vector       &x,
-          const TrilinosWrappers::MPI::Vector &b) const;
+          const TrilinosWrappers::MPI::Vector &b) override;
 
   private:
     struct Implementation;

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_solvers_linear_solver_h
+#define nacre_solvers_linear_solver_h
+
+#include <nacre/base/types.h>
+
+#include <optional>
+
+namespace dealii
+{
+  template <typename number>
+  class AffineConstraints;
+  namespace TrilinosWrappers
+  {
+    class SparseMatrix;
+    namespace MPI
+    {
+      class Vector;
+    }
+  } // namespace TrilinosWrappers
+} // namespace dealii
+
+namespace Nacre
+{
+  /** How exact a solution of a linear system is, and what it took. */
+  struct SolveAccuracy
+  {
+    /**
+     * Componentwise backward error max_i |r|_i / (|A||x| + |b|)_i: the
+     * relative change of the data that x solves exactly.
+     */
+    double backward_error = 0.;
+    /**
+     * |dx| / |x| of the first step of refinement: what the condition number
+     * made of round-off; the digits of the solution are about -log10 of it.
+     */
+    double correction = 0.;
+    /** Iterations of an iterative solver; 0 for a direct one. */
+    unsigned int n_iterations = 0;
+  };
+
+  /** A linear system of a shell, K x = b, as solvers need to know it. */
+  struct LinearSystem
+  {
+    /** K with the constraints eliminated symmetrically. */
+    const TrilinosWrappers::SparseMatrix &matrix;
+    /** Hanging nodes and prescribed displacements that were eliminated. */
+    const AffineConstraints<double> &constraints;
+    /** The ghosted displacement of which K is the tangent; null for zero. */
+    const TrilinosWrappers::MPI::Vector *u = nullptr;
+  };
+
+  /** A solver of symmetric linear systems for any number of right-hand sides.
+   */
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /**
+     * Take a new matrix, which must stay alive and unchanged for solve().
+     * Throws on all ranks; collective.
+     */
+    virtual void
+    prepare(const LinearSystem &system) = 0;
+
+    /**
+     * The vectors are distributed as the matrix' rows, without ghosts; a
+     * right-hand side that is not finite throws on all ranks. Collective.
+     */
+    virtual SolveAccuracy
+    solve(TrilinosWrappers::MPI::Vector       &x,
+          const TrilinosWrappers::MPI::Vector &b) = 0;
+
+    /**
+     * Number of negative eigenvalues of K, where the solver knows it; an
+     * iterative solver knows only whether there are any.
+     */
+    virtual std::optional<unsigned int>
+    n_negative_pivots() const = 0;
+  };
+} // namespace Nacre
+
+#endif
