@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/shell_system.h>
 #include <nacre/base/mpi_errors.h>
+#include <nacre/solvers/direct_solver.h>
 
 namespace Nacre
 {
@@ -10,14 +11,15 @@ namespace Nacre
                            const ShellOperator  &shell_operator,
                            BoundaryConditions   &boundary_conditions,
                            Loads                &loads,
-                           Expression           &load_factor)
+                           Expression           &load_factor,
+                           LinearSolver         &solver)
     : discretization_(discretization)
     , shell_operator_(shell_operator)
     , boundary_conditions_(boundary_conditions)
     , loads_(loads)
     , load_factor_(load_factor)
     , size_(discretization.extent().second)
-    , solver_(discretization.communicator())
+    , solver_(solver)
   {
     set_time(0.);
     shell_operator_.reinit_matrix(constraints(), matrix_);
@@ -63,8 +65,9 @@ namespace Nacre
                          with_ghosts(force),
                          matrix_,
                          right_hand_side);
-    solver_.factorize(matrix_);
-    solver_.solve(a, right_hand_side);
+    DirectSolver mass_solver(discretization_.communicator());
+    mass_solver.factorize(matrix_);
+    mass_solver.solve(a, right_hand_side);
     homogeneous.distribute(a);
     return a;
   }
@@ -155,12 +158,12 @@ namespace Nacre
                                          matrix_,
                                          right_hand_side,
                                          inertia);
-    solver_.factorize(matrix_);
+    solver_.prepare({matrix_, constraints, &ghosted});
     du = 0.;
     solver_.solve(du, right_hand_side);
 
     NewtonSolver::Step step;
-    step.n_negative_pivots = *solver_.n_negative_pivots();
+    step.n_negative_pivots = solver_.n_negative_pivots().value_or(0);
     // Rows of constrained dofs hold the prescribed increments.
     for (const auto &line : constraints.get_lines())
       if (discretization_.locally_owned_dofs().is_element(line.index))

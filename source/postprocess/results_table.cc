@@ -321,6 +321,20 @@ namespace Nacre
 
 
   std::vector<ResultsTable::Column>
+  ResultsTable::solver_columns() const
+  {
+    std::vector<Column> columns = {{"solver", {}, true}, {"iterations", {}}};
+    for (const Row &row : rows_)
+      {
+        columns[0].cells.push_back(row.solver);
+        columns[1].cells.push_back(
+          row.iterations > 0 ? std::to_string(row.iterations) : "");
+      }
+    return columns;
+  }
+
+
+  std::vector<ResultsTable::Column>
   ResultsTable::readable_columns(const bool with_seconds) const
   {
     std::vector<Column> columns = leading_columns();
@@ -380,7 +394,8 @@ namespace Nacre
     for (const auto &group : {quantity_columns(12, false),
                               ratio_columns(12, true),
                               rate_columns(12, true),
-                              seconds_columns(true)})
+                              seconds_columns(true),
+                              solver_columns()})
       columns.insert(columns.end(), group.begin(), group.end());
 
     const auto write_line =

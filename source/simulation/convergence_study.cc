@@ -194,6 +194,8 @@ namespace Nacre
     row.setup_s          = problem_.times().setup;
     row.assembly_s       = problem_.times().assembly;
     row.solve_s          = problem_.times().solve;
+    row.solver           = problem_.solver_record().name;
+    row.iterations       = problem_.solver_record().n_iterations;
     for (const auto &quantity : quantities_.quantities())
       {
         row.values.push_back(quantity.evaluate(shell));
@@ -216,6 +218,8 @@ namespace Nacre
     if (report_seconds_)
       line << ", " << std::fixed << std::setprecision(2)
            << row.setup_s + row.assembly_s + row.solve_s << " s";
+    if (row.iterations > 0)
+      line << ", " << row.solver << ", " << row.iterations << " iterations";
     if (!row.values.empty())
       line << ", " << quantities_.quantities().front().name << " = "
            << std::scientific << std::setprecision(6) << row.values.front();

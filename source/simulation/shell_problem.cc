@@ -5,8 +5,8 @@
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/simulation/chosen_solver.h>
 #include <nacre/simulation/shell_problem.h>
-#include <nacre/solvers/direct_solver.h>
 
 #include <deal.II/base/timer.h>
 
@@ -33,6 +33,7 @@ namespace Nacre
     : ParameterAcceptor("/Discretization")
     , communicator_(communicator)
     , section_(std::move(section))
+    , solver_parameters_(std::make_unique<LinearSolverParameters>())
   {
     add_parameter(
       "Element",
@@ -208,6 +209,10 @@ namespace Nacre
     solution_.reset();
     path_.reset();
     system_.reset();
+    solver_record_ = SolverRecord();
+    solver_.reset();
+    matrix_.clear();
+    conditions_.reset();
     operator_.reset();
     discretization_.reset();
 
@@ -217,6 +222,9 @@ namespace Nacre
                                                        element(),
                                                        mapping_degree_,
                                                        case_.n_refinements);
+    conditions_ =
+      std::make_unique<DisplacementConditions>(*discretization_,
+                                               boundary_conditions_);
     if (path_parameters_.type != AnalysisType::dynamic)
       check_supports();
     operator_ = std::make_unique<ShellOperator>(*discretization_,
@@ -226,6 +234,7 @@ namespace Nacre
                                                 kinematics_options(),
                                                 case_.eta);
     warn_of_penalty(log);
+    make_solver(log);
     timer.stop();
     times_.setup = timer.cpu_time();
   }
@@ -233,9 +242,7 @@ namespace Nacre
   void
   ShellProblem::check_supports() const
   {
-    const DisplacementConditions conditions(*discretization_,
-                                            boundary_conditions_);
-    const auto                   motions = conditions.free_rigid_motions();
+    const auto motions = conditions_->free_rigid_motions();
     if (motions.empty())
       return;
     std::string text = "Boundary conditions: the shell can move freely:";
@@ -250,9 +257,7 @@ namespace Nacre
   ShellProblem::solve(Log &log)
   {
     set_up(log);
-    const DisplacementConditions conditions(*discretization_,
-                                            boundary_conditions_);
-    solve_linear_system(conditions.constraints(), log);
+    solve_linear_system(log);
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
@@ -274,7 +279,8 @@ namespace Nacre
                                             *operator_,
                                             boundary_conditions_,
                                             loads_,
-                                            path_parameters_.load_factor);
+                                            path_parameters_.load_factor,
+                                            *solver_);
     path_ =
       std::make_unique<PathAnalysis>(path_parameters_, *system_, *section_);
     return path_->initial_state();
@@ -294,6 +300,7 @@ namespace Nacre
       },
       [&](const std::string &text) { log.progress() << text << std::endl; });
     take_state(state);
+    solver_record_.name = solver_->name();
     timer.stop();
     times_.solve = timer.cpu_time();
     return failure;
@@ -335,9 +342,15 @@ namespace Nacre
   }
 
   void
-  ShellProblem::solve_linear_system(
-    const AffineConstraints<double> &constraints,
-    Log                             &log)
+  ShellProblem::make_solver(Log &log)
+  {
+    ChosenSolver::Factory make_multigrid;
+    solver_ =
+      std::make_unique<ChosenSolver>(communicator_, make_multigrid, log);
+  }
+
+  void
+  ShellProblem::solve_linear_system(Log &log)
   {
     Timer      timer(communicator_, true);
     const auto lap = [&](double &sum) {
@@ -345,28 +358,39 @@ namespace Nacre
       sum += timer.cpu_time();
       timer.restart();
     };
-    const IndexSet &owned = discretization_->locally_owned_dofs();
-    TrilinosWrappers::SparseMatrix matrix;
-    operator_->reinit_matrix(constraints, matrix);
+    const IndexSet &owned       = discretization_->locally_owned_dofs();
+    const auto     &constraints = conditions_->constraints();
+    operator_->reinit_matrix(constraints, matrix_);
     TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
     TrilinosWrappers::MPI::Vector solution(owned, communicator_);
     lap(times_.setup);
-    operator_->assemble_system(constraints, matrix, right_hand_side);
+    operator_->assemble_system(constraints, matrix_, right_hand_side);
     lap(times_.assembly);
 
-    DirectSolver solver(communicator_);
-    solver.factorize(matrix);
+    solver_->prepare({matrix_, constraints, nullptr});
+    const auto accuracy = solver_->solve(solution, right_hand_side);
+    solver_record_      = {solver_->name(), accuracy.n_iterations};
+    lap(times_.solve);
+    judge(accuracy, log);
+
+    constraints.distribute(solution);
+    displacement_.reinit(owned,
+                         discretization_->locally_relevant_dofs(),
+                         communicator_);
+    displacement_ = solution;
+  }
+
+  void
+  ShellProblem::judge(const SolveAccuracy &accuracy, Log &log) const
+  {
+    const unsigned int n_negative = solver_->n_negative_pivots().value_or(0);
     std::ostringstream message;
-    message << "The stiffness matrix is not positive definite: "
-            << *solver.n_negative_pivots()
-            << (*solver.n_negative_pivots() == 1 ? " negative pivot" :
-                                                   " negative pivots")
+    message << "The stiffness matrix is not positive definite: " << n_negative
+            << (n_negative == 1 ? " negative pivot" : " negative pivots")
             << ". Study/Penalties: eta = " << eta()
             << " is too small; the bound is " << operator_->penalty().bound()
             << ".";
-    AssertThrow(*solver.n_negative_pivots() == 0, ExcMessage(message.str()));
-    const auto accuracy = solver.solve(solution, right_hand_side);
-    lap(times_.solve);
+    AssertThrow(n_negative == 0, ExcMessage(message.str()));
     if (accuracy.correction > 1e-5)
       {
         std::ostringstream text;
@@ -377,11 +401,29 @@ namespace Nacre
              << " of their size; cells much longer than wide do that.";
         log.warning(text.str());
       }
+  }
 
-    constraints.distribute(solution);
-    displacement_.reinit(owned,
-                         discretization_->locally_relevant_dofs(),
-                         communicator_);
-    displacement_ = solution;
+  TrilinosWrappers::MPI::Vector
+  ShellProblem::solve_again(const TrilinosWrappers::MPI::Vector &b)
+  {
+    Assert(conditions_ != nullptr, ExcNotInitialized());
+    const IndexSet           &owned = discretization_->locally_owned_dofs();
+    AffineConstraints<double> homogeneous(conditions_->constraints());
+    for (const auto &line : conditions_->constraints().get_lines())
+      homogeneous.set_inhomogeneity(line.index, 0.);
+    // What acts on a constrained dof acts on those that determine it.
+    TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
+    for (const auto i : owned)
+      if (b(i) != 0.)
+        homogeneous.distribute_local_to_global(i, b(i), right_hand_side);
+    right_hand_side.compress(VectorOperation::add);
+
+    TrilinosWrappers::MPI::Vector solution(owned, communicator_);
+    solver_->solve(solution, right_hand_side);
+    homogeneous.distribute(solution);
+    TrilinosWrappers::MPI::Vector
+      ghosted(owned, discretization_->locally_relevant_dofs(), communicator_);
+    ghosted = solution;
+    return ghosted;
   }
 } // namespace Nacre

@@ -8,7 +8,7 @@
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/loads.h>
-#include <nacre/solvers/direct_solver.h>
+#include <nacre/solvers/linear_solver.h>
 #include <nacre/solvers/newton_solver.h>
 
 #include <memory>
@@ -25,12 +25,16 @@ namespace Nacre
   public:
     using Vector = TrilinosWrappers::MPI::Vector;
 
-    /** @param load_factor factor of all loads and prescribed values over t */
+    /**
+     * @param load_factor factor of all loads and prescribed values over t
+     * @param solver of the linearised systems, which must live as long
+     */
     ShellSystem(const Discretization &discretization,
                 const ShellOperator  &shell_operator,
                 BoundaryConditions   &boundary_conditions,
                 Loads                &loads,
-                Expression           &load_factor);
+                Expression           &load_factor,
+                LinearSolver         &solver);
 
     /** Take loads and conditions at @p time; collective. */
     void
@@ -147,7 +151,7 @@ namespace Nacre
 
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
-    DirectSolver                            solver_;
+    LinearSolver                           &solver_;
     Energies                                energies_;
   };
 } // namespace Nacre

@@ -58,6 +58,9 @@ namespace Nacre
       double setup_s    = 0.;
       double assembly_s = 0.;
       double solve_s    = 0.;
+      /** The linear solver, and its iterations if it is an iterative one. */
+      std::string  solver;
+      unsigned int iterations = 0;
     };
 
     /**
@@ -91,8 +94,8 @@ namespace Nacre
     /**
      * The columns element, degree, eta, thickness, cells, dofs, the
      * quantities, `ratio` of the first quantity that has a reference,
-     * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s;
-     * 12 significant digits, nothing where there is no value.
+     * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s,
+     * solver, iterations; 12 significant digits, nothing where there is no value.
      */
     void
     write_csv(std::ostream &out) const;
@@ -137,6 +140,10 @@ namespace Nacre
 
     std::vector<Column>
     seconds_columns(const bool csv) const;
+
+    /** How the linear systems were solved. */
+    std::vector<Column>
+    solver_columns() const;
 
     /** Columns of the text and the .tex: each quantity with ratio and rate. */
     std::vector<Column>

@@ -24,7 +24,11 @@ namespace Nacre
 {
   class Discretization;
   class Log;
+  class ChosenSolver;
+  class DisplacementConditions;
   class ShellOperator;
+  struct LinearSolverParameters;
+  struct SolveAccuracy;
   struct SolvedShell;
 
   /** What one solve of a study varies. */
@@ -42,6 +46,13 @@ namespace Nacre
     double setup    = 0.;
     double assembly = 0.;
     double solve    = 0.;
+  };
+
+  /** The linear solver that a case took, and its iterations in all. */
+  struct SolverRecord
+  {
+    std::string  name;
+    unsigned int n_iterations = 0;
   };
 
   /** One shell: one mesh, one linear solve. */
@@ -107,6 +118,20 @@ namespace Nacre
       return times_;
     }
 
+    const SolverRecord &
+    solver_record() const
+    {
+      return solver_record_;
+    }
+
+    /**
+     * Solve K x = b once more with the matrix of the last solve(); the
+     * prescribed displacements are zero. @p b without the constraints
+     * eliminated, as the virtual work of forces; x is ghosted.
+     */
+    TrilinosWrappers::MPI::Vector
+    solve_again(const TrilinosWrappers::MPI::Vector &b);
+
     /** The largest eta taken (1). */
     double
     eta() const;
@@ -167,7 +192,14 @@ namespace Nacre
     warn_of_penalty(Log &log) const;
 
     void
-    solve_linear_system(const AffineConstraints<double> &constraints, Log &log);
+    make_solver(Log &log);
+
+    void
+    solve_linear_system(Log &log);
+
+    /** Throws if the matrix isn't positive definite; warns of lost digits. */
+    void
+    judge(const SolveAccuracy &accuracy, Log &log) const;
 
     void
     check_element() const;
@@ -193,18 +225,27 @@ namespace Nacre
     std::string  kinematics_name_      = "linear";
     std::string  tangent_name_         = "consistent";
 
-    ShellCase  case_;
-    Constants  constants_;
-    SolveTimes times_;
+    ShellCase    case_;
+    Constants    constants_;
+    SolveTimes   times_;
+    SolverRecord solver_record_;
+
+    std::unique_ptr<LinearSolverParameters> solver_parameters_;
 
     std::unique_ptr<Discretization> discretization_;
     std::unique_ptr<ShellOperator>  operator_;
     TrilinosWrappers::MPI::Vector   displacement_;
     TrilinosWrappers::MPI::Vector   residual_;
     TrilinosWrappers::MPI::Vector   velocity_;
-    std::unique_ptr<ShellSystem>    system_;
-    std::unique_ptr<PathAnalysis>   path_;
-    std::unique_ptr<SolvedShell>    solution_;
+
+    /** The linear system of solve(), kept for solve_again(). */
+    std::unique_ptr<DisplacementConditions> conditions_;
+    TrilinosWrappers::SparseMatrix          matrix_;
+    std::unique_ptr<ChosenSolver>           solver_;
+
+    std::unique_ptr<ShellSystem>  system_;
+    std::unique_ptr<PathAnalysis> path_;
+    std::unique_ptr<SolvedShell>  solution_;
   };
 } // namespace Nacre
 

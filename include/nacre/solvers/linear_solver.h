@@ -7,6 +7,7 @@
 #include <nacre/base/types.h>
 
 #include <optional>
+#include <stdexcept>
 
 namespace dealii
 {
@@ -50,6 +51,16 @@ namespace Nacre
     const AffineConstraints<double> &constraints;
     /** The ghosted displacement of which K is the tangent; null for zero. */
     const TrilinosWrappers::MPI::Vector *u = nullptr;
+  };
+
+  /**
+   * An iterative solver could not solve a system: the iteration stagnates, or
+   * the matrix is not positive definite. what() says which. Thrown on all
+   * ranks.
+   */
+  struct ExcIterationFailed : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
   };
 
   /** A solver of symmetric linear systems for any number of right-hand sides.

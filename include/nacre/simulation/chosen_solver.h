@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_chosen_solver_h
+#define nacre_simulation_chosen_solver_h
+
+#include <nacre/solvers/direct_solver.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace Nacre
+{
+  class Log;
+
+  /** The parameters of "Linear solver". */
+  struct LinearSolverParameters : public ParameterAcceptor
+  {
+    LinearSolverParameters();
+
+    std::string  solver         = "auto";
+    unsigned int max_iterations = 100;
+  };
+
+  /** What the choice of a solver depends on. */
+  struct SolverTask
+  {
+    types::global_dof_index n_dofs             = 0;
+    unsigned int            degree             = 2;
+    unsigned int            n_right_hand_sides = 1;
+    /** Levels of refinement above the coarse mesh. */
+    unsigned int n_levels = 0;
+    /** What is free on all ranks' machines together (GB). */
+    double memory = 0.;
+  };
+
+  /**
+   * Whether multigrid is expected to take less time than a factorisation, or
+   * is the only one to fit into the memory, from times measured on one core:
+   * doc/performance.md.
+   */
+  bool
+  prefers_multigrid(const SolverTask &task);
+
+  /** Memory (GB) that the machines of all ranks have free; collective. */
+  double
+  free_memory(const MPI_Comm communicator);
+
+  /**
+   * The linear solver of a case: direct, or multigrid with the direct one in
+   * reserve. If multigrid fails, a warning says why, and the direct solver
+   * takes over: its number of negative pivots tells an indefinite matrix.
+   */
+  class ChosenSolver : public LinearSolver
+  {
+  public:
+    using Factory = std::function<std::unique_ptr<LinearSolver>()>;
+
+    /** @param make_multigrid null: the direct solver only */
+    ChosenSolver(const MPI_Comm communicator,
+                 const Factory &make_multigrid,
+                 Log           &log);
+
+    void
+    prepare(const LinearSystem &system) override;
+
+    SolveAccuracy
+    solve(TrilinosWrappers::MPI::Vector       &x,
+          const TrilinosWrappers::MPI::Vector &b) override;
+
+    /** Zero of a matrix that multigrid has solved. */
+    std::optional<unsigned int>
+    n_negative_pivots() const override;
+
+    /** "direct" or "multigrid": the one that solved last. */
+    std::string
+    name() const;
+
+  private:
+    void
+    fall_back(const std::string &reason);
+
+    DirectSolver                  direct_;
+    std::unique_ptr<LinearSolver> multigrid_;
+    Log                          &log_;
+    /** The system of prepare(), for the solver in reserve. */
+    std::unique_ptr<const LinearSystem> system_;
+    bool                                uses_multigrid_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+#include <nacre/simulation/chosen_solver.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+
+namespace Nacre
+{
+  namespace
+  {
+    /**
+     * Seconds on one core at 10^5 dofs, and the powers of the dofs with which
+     * they grow: measured, doc/performance.md.
+     */
+    struct MeasuredCosts
+    {
+      double factorise, substitute, set_up, iterate;
+      /** GB of the factors. */
+      double factors;
+    };
+
+    constexpr double power_of_factors = 1.35;
+    constexpr double power_of_memory  = 1.1;
+
+    const std::array<MeasuredCosts, 4> costs = {{{4.0, 0.1, 1.1, 2.0, 1.0},
+                                                 {6.2, 0.2, 2.0, 1.8, 1.6},
+                                                 {9.0, 0.3, 5.0, 2.3, 2.2},
+                                                 {12.0, 0.4, 9.0, 3.0, 3.0}}};
+  } // namespace
+
+  LinearSolverParameters::LinearSolverParameters()
+    : ParameterAcceptor("/Linear solver")
+  {
+    add_parameter(
+      "Solver",
+      solver,
+      "direct: sparse factorisation; multigrid: conjugate gradients "
+      "with geometric multigrid on the refinements of the coarse "
+      "mesh; auto: whichever is expected to be faster, by the "
+      "number of unknowns, and fits into the memory. If multigrid "
+      "fails, the direct solver takes over, with a warning.",
+      prm,
+      Patterns::Selection("auto|direct|multigrid"));
+    add_parameter("Max iterations",
+                  max_iterations,
+                  "Iterations after which multigrid gives up. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
+  }
+
+  bool
+  prefers_multigrid(const SolverTask &task)
+  {
+    if (task.n_levels == 0)
+      return false;
+    const auto  &cost = costs[std::min(std::max(task.degree, 2u), 5u) - 2];
+    const double n    = task.n_dofs / 1e5;
+    if (cost.factors * std::pow(n, power_of_memory) > 0.8 * task.memory)
+      return true;
+    return (cost.set_up + task.n_right_hand_sides * cost.iterate) * n <
+           cost.factorise * std::pow(n, power_of_factors) +
+             task.n_right_hand_sides * cost.substitute * n;
+  }
+
+  double
+  free_memory(const MPI_Comm communicator)
+  {
+    // Ranks of one machine see the same memory: each counts its share.
+    MPI_Comm machine;
+    MPI_Comm_split_type(communicator,
+                        MPI_COMM_TYPE_SHARED,
+                        0,
+                        MPI_INFO_NULL,
+                        &machine);
+    const unsigned int n_sharing = Utilities::MPI::n_mpi_processes(machine);
+    MPI_Comm_free(&machine);
+
+    double        kilobytes = 0.;
+    std::ifstream file("/proc/meminfo");
+    for (std::string word; file >> word;)
+      if (word == "MemAvailable:")
+        {
+          file >> kilobytes;
+          break;
+        }
+    // Where nothing is known, memory doesn't decide.
+    const double mine = kilobytes > 0. ? kilobytes / 1e6 / n_sharing : 1e6;
+    return Utilities::MPI::sum(mine, communicator);
+  }
+
+  ChosenSolver::ChosenSolver(const MPI_Comm communicator,
+                             const Factory &make_multigrid,
+                             Log           &log)
+    : direct_(communicator)
+    , multigrid_(make_multigrid ? make_multigrid() : nullptr)
+    , log_(log)
+    , uses_multigrid_(multigrid_ != nullptr)
+  {}
+
+  void
+  ChosenSolver::prepare(const LinearSystem &system)
+  {
+    system_         = std::make_unique<const LinearSystem>(system);
+    uses_multigrid_ = (multigrid_ != nullptr);
+    if (!uses_multigrid_)
+      direct_.prepare(system);
+    else
+      try
+        {
+          multigrid_->prepare(system);
+        }
+      catch (const ExcIterationFailed &failure)
+        {
+          fall_back(failure.what());
+        }
+  }
+
+  SolveAccuracy
+  ChosenSolver::solve(TrilinosWrappers::MPI::Vector       &x,
+                      const TrilinosWrappers::MPI::Vector &b)
+  {
+    if (uses_multigrid_)
+      try
+        {
+          return multigrid_->solve(x, b);
+        }
+      catch (const ExcIterationFailed &failure)
+        {
+          fall_back(failure.what());
+        }
+    return direct_.solve(x, b);
+  }
+
+  void
+  ChosenSolver::fall_back(const std::string &reason)
+  {
+    log_.warning("multigrid failed: " + reason +
+                 " The direct solver takes over.");
+    uses_multigrid_ = false;
+    direct_.prepare(*system_);
+  }
+
+  std::optional<unsigned int>
+  ChosenSolver::n_negative_pivots() const
+  {
+    if (uses_multigrid_)
+      return 0;
+    return direct_.n_negative_pivots();
+  }
+
+  std::string
+  ChosenSolver::name() const
+  {
+    return uses_multigrid_ ? "multigrid" : "direct";
+  }
+} // namespace Nacre
