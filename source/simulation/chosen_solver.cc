@@ -98,15 +98,13 @@ namespace Nacre
     : direct_(communicator)
     , multigrid_(make_multigrid ? make_multigrid() : nullptr)
     , log_(log)
-    , uses_multigrid_(multigrid_ != nullptr)
   {}
 
   void
   ChosenSolver::prepare(const LinearSystem &system)
   {
-    system_         = std::make_unique<const LinearSystem>(system);
-    uses_multigrid_ = (multigrid_ != nullptr);
-    if (!uses_multigrid_)
+    system_ = std::make_unique<const LinearSystem>(system);
+    if (multigrid_ == nullptr)
       direct_.prepare(system);
     else
       try
@@ -123,7 +121,7 @@ namespace Nacre
   ChosenSolver::solve(TrilinosWrappers::MPI::Vector       &x,
                       const TrilinosWrappers::MPI::Vector &b)
   {
-    if (uses_multigrid_)
+    if (multigrid_ != nullptr)
       try
         {
           return multigrid_->solve(x, b);
@@ -140,14 +138,14 @@ namespace Nacre
   {
     log_.warning("multigrid failed: " + reason +
                  " The direct solver takes over.");
-    uses_multigrid_ = false;
+    multigrid_.reset();
     direct_.prepare(*system_);
   }
 
   std::optional<unsigned int>
   ChosenSolver::n_negative_pivots() const
   {
-    if (uses_multigrid_)
+    if (multigrid_ != nullptr)
       return 0;
     return direct_.n_negative_pivots();
   }
@@ -155,6 +153,6 @@ namespace Nacre
   std::string
   ChosenSolver::name() const
   {
-    return uses_multigrid_ ? "multigrid" : "direct";
+    return multigrid_ != nullptr ? "multigrid" : "direct";
   }
 } // namespace Nacre

@@ -108,7 +108,7 @@ public:
 
   /** Solve for a given solution; @return the largest error. */
   double
-  error(const DirectSolver &solver, double &backward_error) const
+  error(DirectSolver &solver, double &backward_error) const
   {
     TrilinosVector x(owned_, comm), b(owned_, comm), exact(owned_, comm);
     for (const auto i : owned_)

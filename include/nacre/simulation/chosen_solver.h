@@ -52,7 +52,8 @@ namespace Nacre
   /**
    * The linear solver of a case: direct, or multigrid with the direct one in
    * reserve. If multigrid fails, a warning says why, and the direct solver
-   * takes over: its number of negative pivots tells an indefinite matrix.
+   * takes over for good: its number of negative pivots tells an indefinite
+   * matrix.
    */
   class ChosenSolver : public LinearSolver
   {
@@ -71,7 +72,10 @@ namespace Nacre
     solve(TrilinosWrappers::MPI::Vector       &x,
           const TrilinosWrappers::MPI::Vector &b) override;
 
-    /** Zero of a matrix that multigrid has solved. */
+    /**
+     * Zero for a matrix that multigrid has solved: it fails where an iteration
+     * meets a direction of negative curvature.
+     */
     std::optional<unsigned int>
     n_negative_pivots() const override;
 
@@ -88,7 +92,6 @@ namespace Nacre
     Log                          &log_;
     /** The system of prepare(), for the solver in reserve. */
     std::unique_ptr<const LinearSystem> system_;
-    bool                                uses_multigrid_;
   };
 } // namespace Nacre
 
