@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_multigrid_multigrid_solver_h
+#define nacre_multigrid_multigrid_solver_h
+
+#include <nacre/base/types.h>
+#include <nacre/forms/kinematics_options.h>
+#include <nacre/solvers/linear_solver.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  class BoundaryConditions;
+  class Discretization;
+  class Loads;
+  class Midsurface;
+  class SectionLaw;
+
+  /** Why the iteration of a MultigridSolver can't go on. */
+  DeclException1(ExcMultigridFailed,
+                 std::string,
+                 << "The multigrid solver gave up: " << arg1 << ".");
+
+  /** What describes a shell on any of its meshes; all must stay alive. */
+  struct ShellDescription
+  {
+    const Midsurface           &midsurface;
+    const SectionLaw           &section;
+    const BoundaryConditions   &boundary_conditions;
+    const Loads                &loads;
+    const KinematicsOptions     kinematics_options;
+    const std::optional<double> eta;
+  };
+
+  /**
+   * Conjugate gradients, preconditioned by a V-cycle of geometric multigrid
+   * with one multiplicative sweep over vertex patches (PatchSmoother) before
+   * and one, backwards, after each coarse correction.
+   *
+   * The levels are complete discretizations on meshes that are coarsened
+   * everywhere as far as hanging nodes permit, with stiffness matrices
+   * assembled there: the Galerkin product of a penalty would be twice as stiff
+   * on each coarser level. The coarsest level is solved by a DirectSolver.
+   *
+   * Deviating from the ways of deal.II's multigrid, this needs neither level
+   * dofs nor constraints of refinement edges, and works with whatever a
+   * Discretization can do.
+   */
+  class MultigridSolver : public LinearSolver
+  {
+  public:
+    struct Parameters
+    {
+      /** The recursive residual, relative to the right-hand side. */
+      double tolerance = 1e-8;
+      /** Without convergence after as many iterations prepare for failure. */
+      unsigned int max_iterations = 60;
+      /** Coarsen until the number of dofs is at most this. */
+      unsigned int coarse_dofs = 4000;
+    };
+
+    /** Build the levels of @p fine; collective. */
+    MultigridSolver(const Discretization   &fine,
+                    const ShellDescription &shell,
+                    const Parameters       &parameters);
+    ~MultigridSolver() override;
+
+    /** Whether the mesh of @p fine was refined from a coarser one. */
+    static bool
+    has_coarser_mesh(const Discretization &fine);
+
+    /** Number of levels; with one, multigrid is a direct solver. */
+    unsigned int
+    n_levels() const
+    {
+      return levels_.size();
+    }
+
+    /** Number of dofs of the level @p l, 0 is the finest. */
+    types::global_dof_index
+    n_dofs(const unsigned int l) const;
+
+    /**
+     * Assemble the coarse matrices at the displacement of @p system, and invert
+     * the patches. Throws ExcMultigridFailed if a patch is not positive
+     * definite.
+     */
+    void
+    prepare(const LinearSystem &system) override;
+
+    /**
+     * Throws ExcMultigridFailed if the iteration doesn't converge, or if
+     * the matrix turns out not to be positive definite.
+     */
+    SolveAccuracy
+    solve(TrilinosWrappers::MPI::Vector       &x,
+          const TrilinosWrappers::MPI::Vector &b) override;
+
+    /** 0 after a solution: no negative curvature was met. */
+    std::optional<unsigned int>
+    n_negative_pivots() const override;
+
+    /** x = B b, one V-cycle from zero; for tests. Collective. */
+    void
+    apply_cycle(TrilinosWrappers::MPI::Vector       &x,
+                const TrilinosWrappers::MPI::Vector &b);
+
+  private:
+    using Vector = LinearAlgebra::distributed::Vector<double>;
+
+    struct Level;
+
+    /** Append the level after the last one, if there is one. */
+    bool
+    add_coarser_level();
+
+    /** What depends on the meshes and the constraints only. */
+    void
+    connect_levels(const AffineConstraints<double> &finest_constraints);
+
+    /** The coarse matrices at the displacement @p finest_u, null for zero. */
+    void
+    assemble_coarse_levels(const TrilinosWrappers::MPI::Vector *finest_u);
+
+    /** levels_[l].x = B levels_[l].b */
+    void
+    cycle(const unsigned int l);
+
+    void
+    solve_coarsest();
+
+    /**
+     * Conjugate gradients for the residual r of x on the finest level; returns
+     * the number of iterations.
+     */
+    unsigned int
+    iterate(Vector &x, Vector &r);
+
+    const ShellDescription              shell_;
+    const Parameters                    parameters_;
+    unsigned int                        mapping_degree_;
+    std::vector<std::unique_ptr<Level>> levels_;
+    bool                                has_solved_ = false;
+  };
+} // namespace Nacre
+
+#endif

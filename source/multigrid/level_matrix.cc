@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/multigrid/dense_kernels.h>
+#include <nacre/multigrid/level_matrix.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/trilinos_index_access.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** The rows @p indices of @p matrix on this rank. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    copy_rows(const Epetra_CrsMatrix &matrix, const IndexSet &indices)
+    {
+      const std::vector<TrilinosWrappers::types::int_type> ids(indices.begin(),
+                                                               indices.end());
+      const Epetra_Map map(TrilinosWrappers::types::int_type(-1),
+                           int(ids.size()),
+                           ids.data(),
+                           0,
+                           matrix.Comm());
+      auto             rows = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0);
+      const Epetra_Import import(map, matrix.RowMap());
+
+      int ierr = rows->Import(matrix, import, Insert);
+      AssertThrow(ierr == 0, ExcTrilinosError(ierr));
+      ierr = rows->FillComplete(matrix.DomainMap(), matrix.RangeMap());
+      AssertThrow(ierr >= 0, ExcTrilinosError(ierr));
+      return rows;
+    }
+
+    std::vector<types::global_dof_index>
+    column_ids(const Epetra_CrsMatrix &matrix)
+    {
+      std::vector<types::global_dof_index> ids(matrix.ColMap().NumMyElements());
+      for (unsigned int j = 0; j < ids.size(); ++j)
+        ids[j] = TrilinosWrappers::global_index(matrix.ColMap(), j);
+      return ids;
+    }
+  } // namespace
+
+
+  LevelMatrix::LevelMatrix() = default;
+
+
+  LevelMatrix::~LevelMatrix() = default;
+
+
+  void
+  LevelMatrix::reinit(const TrilinosWrappers::SparseMatrix &matrix,
+                      const IndexSet                       &further_rows)
+  {
+    const MPI_Comm communicator = matrix.get_mpi_communicator();
+    const IndexSet owned        = matrix.locally_owned_range_indices();
+    const auto    &own_matrix   = matrix.trilinos_matrix();
+    const bool is_parallel = Utilities::MPI::n_mpi_processes(communicator) > 1;
+    further_rows_.reset();
+    IndexSet ghosts(matrix.m());
+    if (is_parallel)
+      {
+        further_rows_ = copy_rows(own_matrix, further_rows);
+        ghosts.add_indices(further_rows);
+        for (auto ids : {column_ids(own_matrix), column_ids(*further_rows_)})
+          {
+            std::sort(ids.begin(), ids.end());
+            ghosts.add_indices(ids.begin(), ids.end());
+          }
+        ghosts.subtract_set(owned);
+      }
+    partitioner_ =
+      std::make_shared<const Utilities::MPI::Partitioner>(owned,
+                                                          ghosts,
+                                                          communicator);
+    n_owned_ = owned.n_elements();
+    rows_.assign(n_owned_ + ghosts.n_elements(), Row());
+    diagonal_.assign(rows_.size(), 0.);
+    // The first pattern is that of rows that are not kept.
+    patterns_.assign(1, Pattern());
+    runs_.clear();
+    add_rows(own_matrix);
+    if (is_parallel)
+      add_rows(*further_rows_);
+    unsigned int longest = 0;
+    for (const auto &pattern : patterns_)
+      longest = std::max(longest, pattern.length);
+    gathered_.resize(longest);
+  }
+
+
+  void
+  LevelMatrix::add_rows(const Epetra_CrsMatrix &matrix)
+  {
+    std::vector<unsigned int> local_columns;
+    for (const auto id : column_ids(matrix))
+      local_columns.push_back(partitioner_->global_to_local(id));
+
+    const int *last_columns = nullptr;
+    int        last_length  = -1;
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      {
+        int     length;
+        double *values;
+        int    *columns;
+        matrix.ExtractMyRowView(i, length, values, columns);
+        if (length != last_length ||
+            !std::equal(columns, columns + length, last_columns))
+          {
+            Pattern pattern;
+            pattern.first  = runs_.size();
+            pattern.length = length;
+            for (int k = 0; k < length; ++k)
+              {
+                const unsigned int j = local_columns[columns[k]];
+                pattern.is_interior &= (j < n_owned_);
+                if (k > 0 && j == runs_.back().start + runs_.back().length)
+                  ++runs_.back().length;
+                else
+                  runs_.push_back({j, 1});
+              }
+            pattern.last = runs_.size();
+            patterns_.push_back(pattern);
+            last_columns = columns;
+            last_length  = length;
+          }
+        const unsigned int row = partitioner_->global_to_local(
+          TrilinosWrappers::global_index(matrix.RowMap(), i));
+        rows_[row] = {values, static_cast<unsigned int>(patterns_.size() - 1)};
+        for (int k = 0; k < length; ++k)
+          if (local_columns[columns[k]] == row)
+            diagonal_[row] = values[k];
+      }
+  }
+
+
+  void
+  LevelMatrix::get_columns(const unsigned int         i,
+                           std::vector<unsigned int> &columns) const
+  {
+    const Pattern &pattern = patterns_[rows_[i].pattern];
+    columns.clear();
+    for (std::size_t r = pattern.first; r < pattern.last; ++r)
+      for (unsigned int k = 0; k < runs_[r].length; ++k)
+        columns.push_back(runs_[r].start + k);
+  }
+
+
+  void
+  LevelMatrix::gather(const Pattern &pattern,
+                      const double  *x,
+                      double        *values) const
+  {
+    for (std::size_t r = pattern.first; r < pattern.last; ++r)
+      {
+        const double      *source = x + runs_[r].start;
+        const unsigned int length = runs_[r].length;
+        for (unsigned int k = 0; k < length; ++k)
+          values[k] = source[k];
+        values += length;
+      }
+  }
+
+
+  void
+  LevelMatrix::multiply_rows(const unsigned int  n,
+                             const unsigned int *i,
+                             const double       *x,
+                             double             *products) const
+  {
+    constexpr unsigned int               max_rows = 64;
+    std::array<const double *, max_rows> values;
+    for (unsigned int first = 0; first < n;)
+      {
+        const unsigned int pattern = rows_[i[first]].pattern;
+        unsigned int       last    = first;
+        while (last < n && last - first < max_rows &&
+               rows_[i[last]].pattern == pattern)
+          {
+            values[last - first] = rows_[i[last]].values;
+            ++last;
+          }
+        gather(patterns_[pattern], x, gathered_.data());
+        DenseKernels::dot_products(last - first,
+                                   patterns_[pattern].length,
+                                   values.data(),
+                                   gathered_.data(),
+                                   products + first);
+        first = last;
+      }
+  }
+
+
+  void
+  LevelMatrix::residual(Vector &r, const Vector &x, const Vector &b) const
+  {
+    constexpr unsigned int           n_rows = 256;
+    std::array<unsigned int, n_rows> indices;
+    std::array<double, n_rows>       products;
+    for (unsigned int first = 0; first < n_owned_; first += n_rows)
+      {
+        const unsigned int n = std::min(n_rows, n_owned_ - first);
+        for (unsigned int k = 0; k < n; ++k)
+          indices[k] = first + k;
+        multiply_rows(n, indices.data(), x.begin(), products.data());
+        for (unsigned int k = 0; k < n; ++k)
+          r.begin()[first + k] = b.begin()[first + k] - products[k];
+      }
+  }
+
+
+  double
+  LevelMatrix::residual_and_error(Vector       &r,
+                                  const Vector &x,
+                                  const Vector &b) const
+  {
+    const double x_max = x.linfty_norm();
+    const double small =
+      1000. * x.size() * std::numeric_limits<double>::epsilon();
+    double error = 0.;
+    residual(r, x, b);
+    for (unsigned int i = 0; i < n_owned_; ++i)
+      {
+        const Pattern &pattern = patterns_[rows_[i].pattern];
+        const double  *a       = rows_[i].values;
+        const double   b_i     = std::abs(b.begin()[i]);
+        double         scale   = b_i;
+        double         row_sum = 0.;
+        gather(pattern, x.begin(), gathered_.data());
+        for (unsigned int k = 0; k < pattern.length; ++k)
+          {
+            scale += std::abs(a[k] * gathered_[k]);
+            row_sum += std::abs(a[k]);
+          }
+        if (scale <= small * (row_sum * x_max + b_i))
+          scale += row_sum * x_max;
+        const double r_i = std::abs(r.begin()[i]);
+        // The negated comparison keeps NaN.
+        if (r_i != 0. && !(r_i / scale <= error))
+          error = r_i / scale;
+      }
+    return Utilities::MPI::max(error, partitioner_->get_mpi_communicator());
+  }
+} // namespace Nacre

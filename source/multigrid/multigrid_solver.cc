@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/displacement_conditions.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/multigrid/coarse_mesh.h>
+#include <nacre/multigrid/level_matrix.h>
+#include <nacre/multigrid/level_transfer.h>
+#include <nacre/multigrid/multigrid_solver.h>
+#include <nacre/multigrid/patch_smoother.h>
+#include <nacre/multigrid/vertex_patches.h>
+#include <nacre/problem/midsurface.h>
+#include <nacre/solvers/direct_solver.h>
+
+#include <deal.II/fe/mapping_q.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Nacre
+{
+  namespace
+  {
+    using TrilinosVector = TrilinosWrappers::MPI::Vector;
+
+    template <typename To, typename From>
+    void
+    copy_entries(To &to, const From &from)
+    {
+      std::copy(from.begin(), from.end(), to.begin());
+    }
+  } // namespace
+
+
+  /** All that a mesh of the hierarchy has. */
+  struct MultigridSolver::Level
+  {
+    /** @name Other than on the finest level, built here */
+    //@{
+    std::unique_ptr<Discretization>         own_discretization;
+    std::unique_ptr<DisplacementConditions> conditions;
+    std::unique_ptr<ShellOperator>          shell_operator;
+    TrilinosWrappers::SparseMatrix          own_matrix;
+    //@}
+
+    const Discretization *discretization = nullptr;
+    /** Null on the coarsest level. */
+    std::unique_ptr<LevelTransfer> to_coarser;
+    std::unique_ptr<VertexPatches> patches;
+    /** On the coarsest level only. */
+    std::unique_ptr<DirectSolver> direct;
+
+    LevelMatrix   matrix;
+    PatchSmoother smoother;
+    Vector        x, b, r;
+  };
+
+
+  MultigridSolver::MultigridSolver(const Discretization   &fine,
+                                   const ShellDescription &shell,
+                                   const Parameters       &parameters)
+    : shell_(shell)
+    , parameters_(parameters)
+    , mapping_degree_(0)
+  {
+    if (const auto *mapping =
+          dynamic_cast<const MappingQ<dim, spacedim> *>(&fine.mapping()))
+      if (fine.element().type == ElementType::lagrange)
+        mapping_degree_ = mapping->get_degree();
+    levels_.push_back(std::make_unique<Level>());
+    levels_.back()->discretization = &fine;
+    while ((levels_.size() == 1 ||
+            n_dofs(n_levels() - 1) > parameters_.coarse_dofs) &&
+           add_coarser_level())
+      {}
+  }
+
+
+  MultigridSolver::~MultigridSolver() = default;
+
+
+  bool
+  MultigridSolver::has_coarser_mesh(const Discretization &fine)
+  {
+    return can_coarsen(fine.triangulation());
+  }
+
+
+  types::global_dof_index
+  MultigridSolver::n_dofs(const unsigned int l) const
+  {
+    return levels_[l]->discretization->dof_handler().n_dofs();
+  }
+
+
+  bool
+  MultigridSolver::add_coarser_level()
+  {
+    const Discretization &fine = *levels_.back()->discretization;
+    if (!can_coarsen(fine.triangulation()))
+      return false;
+    auto level = std::make_unique<Level>();
+    try
+      {
+        level->own_discretization = std::make_unique<Discretization>(
+          coarsen(shell_.midsurface, fine.triangulation()),
+          [this](const auto &cell, const auto &unit) {
+            return shell_.midsurface.position(cell, unit);
+          },
+          fine.element(),
+          mapping_degree_);
+        level->conditions =
+          std::make_unique<DisplacementConditions>(*level->own_discretization,
+                                                   shell_.boundary_conditions);
+        level->shell_operator =
+          std::make_unique<ShellOperator>(*level->own_discretization,
+                                          shell_.section,
+                                          shell_.boundary_conditions,
+                                          shell_.loads,
+                                          shell_.kinematics_options,
+                                          shell_.eta);
+      }
+    catch (const ExcMessage &)
+      {
+        // On all ranks: a supported point is no node of that mesh, or a force
+        // lies too far from it.
+        return false;
+      }
+    level->discretization = level->own_discretization.get();
+    if (level->discretization->dof_handler().n_dofs() >=
+        fine.dof_handler().n_dofs())
+      return false;
+    levels_.push_back(std::move(level));
+    return true;
+  }
+
+
+  void
+  MultigridSolver::connect_levels(
+    const AffineConstraints<double> &finest_constraints)
+  {
+    const AffineConstraints<double> *constraints = &finest_constraints;
+    for (unsigned int l = 0; l + 1 < n_levels(); ++l)
+      {
+        Level      &level              = *levels_[l];
+        Level      &coarser            = *levels_[l + 1];
+        const auto &coarse_constraints = coarser.conditions->constraints();
+        level.to_coarser =
+          std::make_unique<LevelTransfer>(*level.discretization,
+                                          *constraints,
+                                          *coarser.discretization,
+                                          coarse_constraints);
+        level.patches =
+          std::make_unique<VertexPatches>(*level.discretization, *constraints);
+        coarser.shell_operator->reinit_matrix(coarse_constraints,
+                                              coarser.own_matrix);
+        constraints = &coarse_constraints;
+      }
+    levels_.back()->direct = std::make_unique<DirectSolver>(
+      levels_.back()->discretization->communicator());
+  }
+
+
+  void
+  MultigridSolver::assemble_coarse_levels(const TrilinosVector *finest_u)
+  {
+    TrilinosVector u;
+    for (unsigned int l = 1; l < n_levels(); ++l)
+      {
+        Level         &level       = *levels_[l];
+        const auto    &constraints = level.conditions->constraints();
+        TrilinosVector unused(level.discretization->locally_owned_dofs(),
+                              level.discretization->communicator());
+        if (finest_u == nullptr)
+          {
+            level.shell_operator->assemble_system(constraints,
+                                                  level.own_matrix,
+                                                  unused);
+            continue;
+          }
+        const TrilinosVector coarse_u =
+          levels_[l - 1]->to_coarser->interpolate(l == 1 ? *finest_u : u);
+        u.reinit(coarse_u);
+        u = coarse_u;
+        level.shell_operator->assemble(u,
+                                       constraints,
+                                       level.own_matrix,
+                                       unused);
+      }
+  }
+
+
+  void
+  MultigridSolver::prepare(const LinearSystem &system)
+  {
+    has_solved_ = false;
+    if (levels_.back()->direct == nullptr)
+      connect_levels(system.constraints);
+    assemble_coarse_levels(system.u);
+    bool is_definite = true;
+    for (unsigned int l = 0; l < n_levels(); ++l)
+      {
+        Level      &level  = *levels_[l];
+        const auto &matrix = l == 0 ? system.matrix : level.own_matrix;
+        if (level.direct != nullptr)
+          {
+            level.matrix.reinit(matrix, IndexSet(matrix.m()));
+            level.direct->factorize(matrix);
+            is_definite &= (*level.direct->n_negative_pivots() == 0);
+          }
+        else
+          {
+            level.matrix.reinit(matrix, level.patches->foreign_dofs);
+            is_definite &= level.smoother.reinit(level.matrix, *level.patches);
+          }
+        for (Vector *vector : {&level.x, &level.b, &level.r})
+          vector->reinit(level.matrix.partitioner());
+      }
+    AssertThrow(is_definite,
+                ExcMultigridFailed("the matrix is not positive definite"));
+  }
+
+
+  void
+  MultigridSolver::cycle(const unsigned int l)
+  {
+    Level &level = *levels_[l];
+    if (level.direct != nullptr)
+      {
+        solve_coarsest();
+        return;
+      }
+    Level &coarser = *levels_[l + 1];
+    level.b.update_ghost_values();
+    std::fill(level.x.begin(), level.x.begin() + level.matrix.n_local(), 0.);
+    level.smoother.forward(level.x, level.b);
+    level.matrix.residual(level.r, level.x, level.b);
+    level.to_coarser->restrict_to(coarser.b, level.r);
+    cycle(l + 1);
+    level.to_coarser->prolongate_and_add(level.x, coarser.x);
+    level.x.update_ghost_values();
+    level.smoother.backward(level.x, level.b);
+  }
+
+
+  void
+  MultigridSolver::solve_coarsest()
+  {
+    Level         &level = *levels_.back();
+    const auto    &owned = level.discretization->locally_owned_dofs();
+    TrilinosVector x(owned, level.discretization->communicator());
+    TrilinosVector b(x);
+    copy_entries(b, level.b);
+    level.direct->solve(x, b);
+    copy_entries(level.x, x);
+  }
+
+
+  unsigned int
+  MultigridSolver::iterate(Vector &x, Vector &r)
+  {
+    Level       &level   = *levels_[0];
+    const double r_start = r.l2_norm();
+    AssertThrow(std::isfinite(r_start),
+                ExcMultigridFailed("the residual is not a finite number"));
+    Vector p(level.matrix.partitioner()), Ap(p), zero(p);
+    double rz_old = 1.;
+    for (unsigned int k = 0;; ++k)
+      {
+        const double r_norm = r.l2_norm();
+        if (r_norm <= parameters_.tolerance * r_start)
+          return k;
+        AssertThrow(k < parameters_.max_iterations,
+                    ExcMultigridFailed("no convergence within " +
+                                       std::to_string(k) + " iterations"));
+        // The patches' single precision has a range of its own.
+        level.b.equ(1. / r_norm, r);
+        cycle(0);
+        const double rz = (r * level.x) * r_norm;
+        AssertThrow(std::isfinite(rz) && rz > 0.,
+                    ExcMultigridFailed(
+                      "the preconditioner is not positive definite"));
+        p.sadd(k == 0 ? 0. : rz / rz_old, r_norm, level.x);
+        rz_old = rz;
+        p.update_ghost_values();
+        level.matrix.residual(Ap, p, zero);
+        const double pAp = -(p * Ap);
+        AssertThrow(std::isfinite(pAp) && pAp > 0.,
+                    ExcMultigridFailed("the matrix is not positive definite"));
+        x.add(rz / pAp, p);
+        r.add(rz / pAp, Ap);
+      }
+  }
+
+
+  SolveAccuracy
+  MultigridSolver::solve(TrilinosVector &x, const TrilinosVector &b)
+  {
+    Level &level = *levels_[0];
+    has_solved_  = false;
+    AssertThrow(std::isfinite(b.l2_norm()),
+                ExcMessage("The right-hand side of the linear system holds an "
+                           "infinite or undefined (NaN) number."));
+    SolveAccuracy accuracy;
+    if (level.direct != nullptr)
+      accuracy = level.direct->solve(x, b);
+    else
+      {
+        Vector solution(level.matrix.partitioner());
+        Vector right_hand_side(solution), r(solution);
+        copy_entries(right_hand_side, b);
+        // Rows of constrained dofs are diagonal.
+        for (unsigned int i = 0; i < level.matrix.n_owned(); ++i)
+          if (level.matrix.row_length(i) == 1)
+            solution.begin()[i] =
+              right_hand_side.begin()[i] / level.matrix.diagonal(i);
+        solution.update_ghost_values();
+        level.matrix.residual(r, solution, right_hand_side);
+        accuracy.n_iterations = iterate(solution, r);
+        solution.update_ghost_values();
+        accuracy.backward_error =
+          level.matrix.residual_and_error(r, solution, right_hand_side);
+        copy_entries(x, solution);
+      }
+    has_solved_ = true;
+    return accuracy;
+  }
+
+
+  std::optional<unsigned int>
+  MultigridSolver::n_negative_pivots() const
+  {
+    if (!has_solved_)
+      return {};
+    return 0;
+  }
+
+
+  void
+  MultigridSolver::apply_cycle(TrilinosVector &x, const TrilinosVector &b)
+  {
+    Level &level = *levels_[0];
+    copy_entries(level.b, b);
+    cycle(0);
+    copy_entries(x, level.x);
+  }
+} // namespace Nacre

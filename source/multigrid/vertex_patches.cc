@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/discretization.h>
+#include <nacre/multigrid/vertex_patches.h>
+
+#include <algorithm>
+
+namespace Nacre
+{
+  namespace
+  {
+    using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+
+    /** Append the dofs of @p cell at and next to its vertex @p v. */
+    void
+    add_dofs(const cell_iterator                        &cell,
+             const unsigned int                          v,
+             const std::vector<types::global_dof_index> &cell_dofs,
+             std::vector<types::global_dof_index>       &dofs)
+    {
+      const auto &fe  = cell->get_fe();
+      const auto  add = [&](const unsigned int first, const unsigned int n) {
+        dofs.insert(dofs.end(),
+                    cell_dofs.begin() + first,
+                    cell_dofs.begin() + first + n);
+      };
+      add(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
+      for (const unsigned int l : cell->line_indices())
+        for (const unsigned int end : {0, 1})
+          if (cell->line(l)->vertex_index(end) == cell->vertex_index(v))
+            add(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
+                fe.n_dofs_per_line());
+      const unsigned int inside = fe.get_first_quad_index();
+      add(inside, fe.n_dofs_per_cell() - inside);
+    }
+
+    /** A vertex of a cell, by the cell's number in some list. */
+    struct Corner
+    {
+      unsigned int cell;
+      unsigned int vertex;
+    };
+  } // namespace
+
+
+  VertexPatches::VertexPatches(const Discretization            &discretization,
+                               const AffineConstraints<double> &constraints)
+    : start(1, 0)
+    , foreign_dofs(discretization.dof_handler().n_dofs())
+  {
+    const auto &triangulation = discretization.triangulation();
+    const auto  me            = triangulation.locally_owned_subdomain();
+
+    std::vector<cell_iterator>       cells;
+    std::vector<std::vector<Corner>> corners(triangulation.n_vertices());
+    for (const auto &cell :
+         discretization.dof_handler().active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          for (const unsigned int v : cell->vertex_indices())
+            corners[cell->vertex_index(v)].push_back(
+              {static_cast<unsigned int>(cells.size()), v});
+          cells.push_back(cell);
+        }
+
+    std::vector<bool>                    is_done(corners.size(), false);
+    std::vector<types::global_dof_index> cell_dofs, patch, foreign;
+    const IndexSet &owned = discretization.locally_owned_dofs();
+    for (const auto &first_cell : cells)
+      if (first_cell->is_locally_owned())
+        for (const unsigned int v : first_cell->vertex_indices())
+          {
+            const auto vertex = first_cell->vertex_index(v);
+            if (is_done[vertex])
+              continue;
+            is_done[vertex] = true;
+            patch.clear();
+            bool is_mine = true;
+            for (const Corner &corner : corners[vertex])
+              {
+                const auto &cell = cells[corner.cell];
+                is_mine &= (cell->subdomain_id() >= me);
+                cell_dofs.resize(cell->get_fe().n_dofs_per_cell());
+                cell->get_dof_indices(cell_dofs);
+                add_dofs(cell, corner.vertex, cell_dofs, patch);
+              }
+            if (!is_mine)
+              continue;
+            std::sort(patch.begin(), patch.end());
+            patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
+            for (const auto i : patch)
+              if (!constraints.is_constrained(i))
+                {
+                  dofs.push_back(i);
+                  if (!owned.is_element(i))
+                    foreign.push_back(i);
+                }
+            if (dofs.size() > start.back())
+              start.push_back(dofs.size());
+          }
+    std::sort(foreign.begin(), foreign.end());
+    foreign_dofs.add_indices(foreign.begin(), foreign.end());
+  }
+} // namespace Nacre

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_tests_multigrid_case_h
+#define nacre_tests_multigrid_case_h
+
+#include <nacre/base/expression.h>
+#include <nacre/discretization/discretization.h>
+#include <nacre/discretization/displacement_conditions.h>
+#include <nacre/forms/kinematics.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/multigrid/multigrid_solver.h>
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/loads.h>
+#include <nacre/problem/midsurface.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/** A shell of a parameter file, solved by multigrid. */
+namespace MultigridTests
+{
+  using namespace Nacre;
+  using TrilinosVector = TrilinosWrappers::MPI::Vector;
+  using Mesh           = parallel::TriangulationBase<dim, spacedim>;
+
+  inline bool
+  is_root()
+  {
+    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
+  /** Chooses the cells to refine by the position of their centre. */
+  using Marker = std::function<bool(const Point<spacedim> &)>;
+
+  struct NoParameters
+  {
+    NoParameters()
+    {
+      ParameterAcceptor::clear();
+    }
+  };
+
+  /** Everything that a parameter file says; one object at a time. */
+  struct Case : NoParameters
+  {
+    /** @param thickness instead of the file's, if not zero */
+    explicit Case(const std::string &text, const double thickness = 0.)
+    {
+      auto &prm = ParameterAcceptor::prm;
+      prm.declare_entry("Constants", "");
+      ParameterAcceptor::declare_all_parameters();
+      prm.parse_input_from_string(text, "", true);
+      ParameterAcceptor::parse_all_parameters();
+      auto constants = parse_constants(prm.get("Constants"), "Constants");
+      if (thickness > 0.)
+        section.set_thickness(thickness);
+      section.prepare(constants);
+      for (const auto &constant : section.named_constants())
+        constants.insert(constant);
+      midsurface.prepare(constants);
+      section.set_regions(midsurface.region_names());
+      conditions.prepare(midsurface, constants);
+      loads.prepare(midsurface, constants);
+      loads.set_time(0., 1.);
+      conditions.set_time(0., 1.);
+    }
+
+    std::unique_ptr<Discretization>
+    discretize(const Element             &element,
+               const unsigned int         n_refinements,
+               const std::vector<Marker> &markers = {}) const
+    {
+      auto mesh = midsurface.create_triangulation(MPI_COMM_WORLD,
+                                                  element.reference_cell(),
+                                                  n_refinements);
+      for (const auto &marker : markers)
+        {
+          for (const auto &cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned() &&
+                marker(midsurface.position(cell, Point<dim>(.5, .5))))
+              cell->set_refine_flag();
+          mesh->execute_coarsening_and_refinement();
+        }
+      return std::make_unique<Discretization>(
+        std::move(mesh),
+        [this](const auto &cell, const auto &unit) {
+          return midsurface.position(cell, unit);
+        },
+        element,
+        0);
+    }
+
+    ShellDescription
+    description(const KinematicsOptions &options) const
+    {
+      return {midsurface, section, conditions, loads, options, {}};
+    }
+
+    Midsurface           midsurface;
+    LinearElasticSection section;
+    BoundaryConditions   conditions;
+    Loads                loads;
+  };
+
+  inline std::string
+  read_file(const std::string &name)
+  {
+    std::ifstream      file(name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    AssertThrow(file, ExcMessage("no file " + name));
+    return text.str();
+  }
+
+  /** The linear system of a mesh. */
+  struct System
+  {
+    System(const Case              &shell,
+           const Discretization    &discretization,
+           const KinematicsOptions &options,
+           const TrilinosVector    *u = nullptr)
+      : conditions(discretization, shell.conditions)
+      , shell_operator(discretization,
+                       shell.section,
+                       shell.conditions,
+                       shell.loads,
+                       options,
+                       {})
+      , b(discretization.locally_owned_dofs(), MPI_COMM_WORLD)
+    {
+      shell_operator.reinit_matrix(conditions.constraints(), matrix);
+      if (u == nullptr)
+        shell_operator.assemble_system(conditions.constraints(), matrix, b);
+      else
+        shell_operator.assemble(*u, conditions.constraints(), matrix, b);
+    }
+
+    DisplacementConditions         conditions;
+    ShellOperator                  shell_operator;
+    TrilinosWrappers::SparseMatrix matrix;
+    TrilinosVector                 b;
+  };
+} // namespace MultigridTests
+
+#endif
