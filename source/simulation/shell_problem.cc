@@ -4,6 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
+#include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/shell_problem.h>
 #include <nacre/solvers/direct_solver.h>
@@ -97,6 +98,7 @@ namespace Nacre
   ShellProblem::prepare(const Constants &constants, const ShellCase &shell_case)
   {
     case_ = shell_case;
+    refined_mesh_.reset();
     check_element();
     if (case_.thickness)
       section_->set_thickness(*case_.thickness);
@@ -212,11 +214,17 @@ namespace Nacre
     discretization_.reset();
 
     Timer timer(communicator_, true);
-    discretization_ = std::make_unique<Discretization>(midsurface_,
-                                                       communicator_,
-                                                       element(),
-                                                       mapping_degree_,
-                                                       case_.n_refinements);
+    discretization_ = std::make_unique<Discretization>(
+      refined_mesh_ != nullptr ?
+        std::move(refined_mesh_) :
+        midsurface_.create_triangulation(communicator_,
+                                         element().reference_cell(),
+                                         case_.n_refinements),
+      [this](const auto &cell, const auto &unit) {
+        return midsurface_.position(cell, unit);
+      },
+      element(),
+      mapping_degree_);
     if (path_parameters_.type != AnalysisType::dynamic)
       check_supports();
     operator_ = std::make_unique<ShellOperator>(*discretization_,
@@ -383,5 +391,81 @@ namespace Nacre
                          discretization_->locally_relevant_dofs(),
                          communicator_);
     displacement_ = solution;
+    if (goal_ != nullptr)
+      {
+        solve_dual(solver, constraints);
+        lap(times_.solve);
+      }
+  }
+
+  void
+  ShellProblem::solve_dual(LinearSolver                    &solver,
+                           const AffineConstraints<double> &constraints)
+  {
+    using Vector          = TrilinosWrappers::MPI::Vector;
+    const IndexSet &owned = discretization_->locally_owned_dofs();
+    dual_.reinit(displacement_);
+    if (goal_->is_energy)
+      {
+        // U = l(u)/2 for data that do no work of their own.
+        dual_ = displacement_;
+        dual_ *= 0.5;
+        return;
+      }
+    Vector load(owned, communicator_), edge(owned, communicator_);
+    if (goal_->load)
+      load = goal_->load(*discretization_);
+    else
+      {
+        // z = w - v with w the response to K v.
+        edge  = goal_->edge(*discretization_);
+        dual_ = edge;
+        Vector without(owned, communicator_), zero(dual_);
+        zero = 0.;
+        operator_->residual(zero, without);
+        operator_->residual(dual_, load);
+        load.add(-1., without);
+      }
+    Vector condensed(owned, communicator_);
+    for (const auto i : owned)
+      if (!constraints.is_constrained(i))
+        condensed(i) += load(i);
+      else
+        for (const auto &[j, weight] : *constraints.get_constraint_entries(i))
+          condensed(j) += weight * load(i);
+    condensed.compress(VectorOperation::add);
+
+    Vector solution(owned, communicator_), offset(owned, communicator_);
+    solver.solve(solution, condensed);
+    constraints.distribute(solution);
+    constraints.distribute(offset);
+    solution.add(-1., offset);
+    solution.add(-1., edge);
+    dual_ = solution;
+  }
+
+  std::unique_ptr<ErrorEstimator>
+  ShellProblem::make_error_estimator() const
+  {
+    return std::make_unique<ErrorEstimator>(*discretization_,
+                                            *section_,
+                                            boundary_conditions_,
+                                            loads_,
+                                            operator_->penalty(),
+                                            kinematics_options());
+  }
+
+  void
+  ShellProblem::refine(const std::vector<bool> &marked)
+  {
+    auto mesh = discretization_->release_triangulation();
+    solution_.reset();
+    operator_.reset();
+    discretization_.reset();
+    for (const auto &cell : mesh->active_cell_iterators())
+      if (cell->is_locally_owned() && marked[cell->active_cell_index()])
+        cell->set_refine_flag();
+    mesh->execute_coarsening_and_refinement();
+    refined_mesh_ = std::move(mesh);
   }
 } // namespace Nacre

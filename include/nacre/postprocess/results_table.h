@@ -58,6 +58,8 @@ namespace Nacre
       double setup_s    = 0.;
       double assembly_s = 0.;
       double solve_s    = 0.;
+      /** None if no error is estimated: then there is no such column. */
+      std::optional<double> estimate_s;
     };
 
     /**
@@ -91,7 +93,8 @@ namespace Nacre
     /**
      * The columns element, degree, eta, thickness, cells, dofs, the
      * quantities, `ratio` of the first quantity that has a reference,
-     * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s;
+     * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s,
+     * and estimate_s where errors are estimated;
      * 12 significant digits, nothing where there is no value.
      */
     void

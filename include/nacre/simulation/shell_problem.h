@@ -24,7 +24,10 @@ namespace Nacre
 {
   class Discretization;
   class Log;
+  class ErrorEstimator;
+  class LinearSolver;
   class ShellOperator;
+  struct GoalFunctional;
   struct SolvedShell;
 
   /** What one solve of a study varies. */
@@ -75,6 +78,37 @@ namespace Nacre
      */
     void
     solve(Log &log);
+
+    /**
+     * Let each solve() compute the dual solution of a quantity of interest,
+     * too; null for none.
+     */
+    void
+    set_goal(const GoalFunctional *goal)
+    {
+      goal_ = goal;
+    }
+
+    /**
+     * The dual solution z of the goal, ghosted: a change of the solution's
+     * residual changes the quantity by the residual's work on z.
+     */
+    const TrilinosWrappers::MPI::Vector &
+    dual_solution() const
+    {
+      return dual_;
+    }
+
+    /** The estimator of errors of the last solve(). */
+    std::unique_ptr<ErrorEstimator>
+    make_error_estimator() const;
+
+    /**
+     * Quarter the cells @p marked, by active cell index, of this rank; the
+     * next solve() takes the refined mesh. solution() is gone.
+     */
+    void
+    refine(const std::vector<bool> &marked);
 
     /** Called after each step of a path. */
     using PathObserver =
@@ -169,6 +203,11 @@ namespace Nacre
     void
     solve_linear_system(const AffineConstraints<double> &constraints, Log &log);
 
+    /** The dual solution with the factors of the system just solved. */
+    void
+    solve_dual(LinearSolver                    &solver,
+               const AffineConstraints<double> &constraints);
+
     void
     check_element() const;
 
@@ -197,9 +236,14 @@ namespace Nacre
     Constants  constants_;
     SolveTimes times_;
 
+    /** Refined, for the next set-up; null: that of the case. */
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> refined_mesh_;
+    const GoalFunctional                                       *goal_ = nullptr;
+
     std::unique_ptr<Discretization> discretization_;
     std::unique_ptr<ShellOperator>  operator_;
     TrilinosWrappers::MPI::Vector   displacement_;
+    TrilinosWrappers::MPI::Vector   dual_;
     TrilinosWrappers::MPI::Vector   residual_;
     TrilinosWrappers::MPI::Vector   velocity_;
     std::unique_ptr<ShellSystem>    system_;
