@@ -283,7 +283,7 @@ namespace Nacre
         for (const auto &condition : conditions.displacements)
           if (condition.direction == Direction::plane_normal ||
               condition.direction == Direction::within_plane)
-            plane = plane_normal(nodes, id, condition.source);
+            plane = planes_[id] = plane_normal(nodes, id, condition.source);
 
         for (const auto &edge_node : nodes)
           {
@@ -307,6 +307,37 @@ namespace Nacre
               }
           }
       }
+  }
+
+  Tensor<1, spacedim>
+  DisplacementConditions::free_part(const types::boundary_id id,
+                                    const Vector3           &normal,
+                                    const Vector3           &conormal,
+                                    const Vector3           &force) const
+  {
+    const auto edge = boundary_conditions_.edges().find(id);
+    if (edge == boundary_conditions_.edges().end())
+      return force;
+    const auto plane = planes_.find(id);
+    EdgeNode   node{};
+    node.normal   = normal;
+    node.conormal = conormal;
+    std::vector<Vector3> basis;
+    Vector3              part = force;
+    for (const auto &condition : edge->second.displacements)
+      for (Vector3 direction :
+           directions_of(condition.direction,
+                         node,
+                         plane == planes_.end() ? Vector3() : plane->second))
+        {
+          for (const auto &known : basis)
+            direction -= (known * direction) * known;
+          if (direction.norm() < 1e-6)
+            continue;
+          basis.push_back(direction / direction.norm());
+          part -= (basis.back() * part) * basis.back();
+        }
+    return part;
   }
 
   void

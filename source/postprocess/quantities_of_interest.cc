@@ -51,13 +51,14 @@ namespace Nacre
       return direction / direction.norm();
     }
 
-    double
-    displacement_at(const SolvedShell            &shell,
-                    const Point<spacedim>        &point,
-                    const std::optional<Vector3> &direction,
-                    const std::string            &where)
+    /** g of direction . u(point) = g . u; none: along the normal. */
+    TrilinosWrappers::MPI::Vector
+    displacement_functional(const Discretization         &discretization,
+                            const Point<spacedim>        &point,
+                            const std::optional<Vector3> &direction,
+                            const std::string            &where)
     {
-      const auto         place = shell.discretization.locate(point);
+      const auto         place = discretization.locate(point);
       std::ostringstream message;
       message << where << ": the point lies off the mid-surface by "
               << place.distance << "; the nearest point of the mesh is ("
@@ -65,10 +66,11 @@ namespace Nacre
               << place.position[2] << ").";
       AssertThrow(place.distance <= 0.02 * place.cell_diameter,
                   ExcMessage(message.str()));
-      double value = 0.;
+      TrilinosWrappers::MPI::Vector g(discretization.locally_owned_dofs(),
+                                      discretization.communicator());
       if (place.is_mine)
         {
-          ShellCellValues values(shell.discretization,
+          ShellCellValues values(discretization,
                                  Quadrature<dim>(place.unit),
                                  false);
           values.reinit(place.cell);
@@ -77,9 +79,23 @@ namespace Nacre
           const Vector3 d = direction ? *direction : values.frame(0).t0;
           for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
             for (unsigned int c = 0; c < spacedim; ++c)
-              value += d[c] * values.shapes().value(0, a) *
-                       shell.displacement(dofs[values.dof(a, c)]);
+              g(dofs[values.dof(a, c)]) += d[c] * values.shapes().value(0, a);
         }
+      g.compress(VectorOperation::add);
+      return g;
+    }
+
+    double
+    displacement_at(const SolvedShell            &shell,
+                    const Point<spacedim>        &point,
+                    const std::optional<Vector3> &direction,
+                    const std::string            &where)
+    {
+      const auto g =
+        displacement_functional(shell.discretization, point, direction, where);
+      double value = 0.;
+      for (const auto i : shell.discretization.locally_owned_dofs())
+        value += g(i) * shell.displacement(i);
       return Utilities::MPI::sum(value, shell.discretization.communicator());
     }
 
@@ -106,18 +122,18 @@ namespace Nacre
       return Utilities::MPI::max(maximum, discretization.communicator());
     }
 
+    using EdgeDisplacement = std::function<Vector3(const Point<spacedim> &)>;
+
     /**
-     * Virtual work of the residual on the displacement @p virtual_displacement
-     * of the nodes of an edge, hanging nodes following.
+     * The displacement @p virtual_displacement of the nodes of an edge, hanging
+     * nodes following.
      */
-    double
-    virtual_work(const SolvedShell       &shell,
-                 const types::boundary_id id,
-                 const std::function<Vector3(const Point<spacedim> &)>
-                   &virtual_displacement)
+    TrilinosWrappers::MPI::Vector
+    edge_displacement(const Discretization    &discretization,
+                      const types::boundary_id id,
+                      const EdgeDisplacement  &virtual_displacement)
     {
-      const auto                   &discretization = shell.discretization;
-      const auto                   &node_dofs      = discretization.node_dofs();
+      const auto                   &node_dofs = discretization.node_dofs();
       TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
                                       discretization.communicator());
       std::vector<types::global_dof_index> dofs(node_dofs.size());
@@ -137,7 +153,17 @@ namespace Nacre
               }
       v.compress(VectorOperation::insert);
       discretization.hanging_node_constraints().distribute(v);
-      return shell.residual * v;
+      return v;
+    }
+
+    /** Its virtual work with the residual. */
+    double
+    virtual_work(const SolvedShell       &shell,
+                 const types::boundary_id id,
+                 const EdgeDisplacement  &virtual_displacement)
+    {
+      return shell.residual *
+             edge_displacement(shell.discretization, id, virtual_displacement);
     }
 
     /**
@@ -323,26 +349,32 @@ namespace Nacre
     }
 
     /** "DIRECTION at (point)" */
-    Evaluate
-    parse_displacement(Phrase phrase, const Constants &constants)
+    void
+    parse_displacement(QuantitiesOfInterest::Quantity &quantity,
+                       Phrase                          phrase,
+                       const Constants                &constants)
     {
       const std::string &where = phrase.where;
       const auto         direction =
         parse_direction(phrase.up_to("at"), where, constants);
       AssertThrow(!phrase.text.empty(),
                   ExcMessage(where + ": write 'displacement z at (x, y, z)'."));
-      const auto point = evaluate_point(phrase.text, where, constants);
-      return [=](const SolvedShell &shell) {
+      const auto point  = evaluate_point(phrase.text, where, constants);
+      quantity.evaluate = [=](const SolvedShell &shell) {
         return displacement_at(shell, point, direction, where);
+      };
+      quantity.goal.load = [=](const Discretization &discretization) {
+        return displacement_functional(discretization, point, direction, where);
       };
     }
 
     /** "DIRECTION of EDGE" of a reaction or, "about (point)", of its moment */
-    Evaluate
-    parse_reaction(Phrase            phrase,
-                   const bool        is_moment,
-                   const Midsurface &midsurface,
-                   const Constants  &constants)
+    void
+    parse_reaction(QuantitiesOfInterest::Quantity &quantity,
+                   Phrase                          phrase,
+                   const bool                      is_moment,
+                   const Midsurface               &midsurface,
+                   const Constants                &constants)
     {
       const std::string &where = phrase.where;
       const auto         direction =
@@ -353,15 +385,22 @@ namespace Nacre
       const auto id =
         midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"), where);
       if (!is_moment)
-        return [=](const SolvedShell &shell) {
-          return virtual_work(shell, id, [&](const auto &) {
+        {
+          const EdgeDisplacement along = [=](const auto &) {
             return *direction;
-          });
-        };
+          };
+          quantity.evaluate = [=](const SolvedShell &shell) {
+            return virtual_work(shell, id, along);
+          };
+          quantity.goal.edge = [=](const Discretization &discretization) {
+            return edge_displacement(discretization, id, along);
+          };
+          return;
+        }
       const auto origin = phrase.text.empty() ?
                             Point<spacedim>() :
                             evaluate_point(phrase.text, where, constants);
-      return [=](const SolvedShell &shell) {
+      quantity.evaluate = [=](const SolvedShell &shell) {
         return reaction_moment(shell, id, *direction, origin);
       };
     }
@@ -381,8 +420,9 @@ namespace Nacre
             AssertThrow(!simple.is_error || exact_solution.is_known(),
                         ExcMessage(phrase.where + ": '" + kind +
                                    "' needs 'Exact solution/Displacement'."));
-            quantity.evaluate = simple.evaluate;
-            quantity.is_error = simple.is_error;
+            quantity.evaluate       = simple.evaluate;
+            quantity.is_error       = simple.is_error;
+            quantity.goal.is_energy = (kind == "energy");
             return;
           }
       for (const auto &simple : simple_kinds())
@@ -391,12 +431,11 @@ namespace Nacre
                                "' after the kind of quantity is not "
                                "understood."));
       if (phrase.take("displacement"))
-        quantity.evaluate = parse_displacement(phrase, constants);
+        parse_displacement(quantity, phrase, constants);
       else if (phrase.take("reaction"))
-        quantity.evaluate =
-          parse_reaction(phrase, false, midsurface, constants);
+        parse_reaction(quantity, phrase, false, midsurface, constants);
       else if (phrase.take("moment"))
-        quantity.evaluate = parse_reaction(phrase, true, midsurface, constants);
+        parse_reaction(quantity, phrase, true, midsurface, constants);
       else
         AssertThrow(false,
                     ExcMessage(
@@ -420,9 +459,13 @@ namespace Nacre
                                                     "dofs",
                                                     "ratio",
                                                     "rate",
+                                                    "estimate",
+                                                    "bound",
+                                                    "effectivity",
                                                     "setup_s",
                                                     "assembly_s",
-                                                    "solve_s"};
+                                                    "solve_s",
+                                                    "estimate_s"};
       AssertThrow(!name.empty(),
                   ExcMessage(parameter + ": '" + entry +
                              "' has no name before '='."));

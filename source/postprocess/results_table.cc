@@ -310,11 +310,15 @@ namespace Nacre
     const auto          text    = [&](const double seconds) {
       return csv ? number(seconds, 6) : fixed_number(seconds, 4);
     };
+    if (!rows_.empty() && rows_.front().estimate_s)
+      columns.push_back({"estimate_s", {}});
     for (const Row &row : rows_)
       {
         columns[0].cells.push_back(text(row.setup_s));
         columns[1].cells.push_back(text(row.assembly_s));
         columns[2].cells.push_back(text(row.solve_s));
+        if (columns.size() == 4)
+          columns[3].cells.push_back(text(row.estimate_s.value_or(0.)));
       }
     return columns;
   }

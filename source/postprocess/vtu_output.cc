@@ -306,7 +306,9 @@ namespace Nacre
   ShellFields::ShellFields(const Discretization                &discretization,
                            const SectionLaw                    &section,
                            const KinematicsOptions             &kinematics,
-                           const TrilinosWrappers::MPI::Vector &displacement)
+                           const TrilinosWrappers::MPI::Vector &displacement,
+                           const std::vector<double> &error_indicators)
+    : has_error_indicators_(!error_indicators.empty())
   {
     const unsigned int degree = discretization.degree();
     const bool         triangles =
@@ -341,6 +343,9 @@ namespace Nacre
               for (const auto &field : fields())
                 for (unsigned int c = 0; c < field.n_components; ++c)
                   patch.data(row++, q) = field.component(state, c);
+              if (has_error_indicators_)
+                patch.data(row++, q) =
+                  error_indicators[cell->active_cell_index()];
               for (unsigned int c = 0; c < spacedim; ++c)
                 patch.data(row++, q) = states.position(q)[c];
             }
@@ -376,6 +381,8 @@ namespace Nacre
     std::vector<std::string> names;
     for (const auto &field : fields())
       names.insert(names.end(), field.n_components, field.name);
+    if (has_error_indicators_)
+      names.push_back("error_indicator");
     return names;
   }
 
@@ -419,7 +426,8 @@ namespace Nacre
                    const std::string                   &folder,
                    const std::string                   &name,
                    const unsigned int                   counter,
-                   const double                         time)
+                   const double                         time,
+                   const std::vector<double>           &error_indicators)
   {
     const MPI_Comm communicator = discretization.communicator();
     run_on_root(communicator, [&] { create_folder(folder); });
@@ -441,7 +449,8 @@ namespace Nacre
       shell_fields            = std::make_unique<ShellFields>(discretization,
                                                    section,
                                                    kinematics,
-                                                   ghosted_displacement);
+                                                   ghosted_displacement,
+                                                   error_indicators);
       if (n_cells[rank] > 0)
         write_file((path / piece(rank)).string(),
                    [&](std::ostream &out) { shell_fields->write_vtu(out); });

@@ -267,6 +267,53 @@ namespace Nacre
 
 
   SurfaceDescription
+  make_l_shaped_plate(const SurfaceInput &input)
+  {
+    const double       a = input.positive("Size");
+    const unsigned int n = input.n_patch_cells();
+    Patches            patches;
+    for (const auto &[x, y] : {std::make_pair(-a, -a),
+                               std::make_pair(-a, 0.),
+                               std::make_pair(0., 0.)})
+      patches.add({{Point<3>(x, y, 0.),
+                    Point<3>(x + a, y, 0.),
+                    Point<3>(x, y + a, 0.),
+                    Point<3>(x + a, y + a, 0.)}},
+                  n,
+                  n);
+    const auto line = [a](const unsigned int c, const double value) {
+      return
+        [=](const Point<3> &chart) { return equal(chart[c] / a, value / a); };
+    };
+    std::vector<SurfaceDescription::Edge> edges;
+    edges.push_back({"x=0", {}, line(0, 0.)});
+    edges.push_back({"y=0", {}, line(1, 0.)});
+    edges.push_back({"left", {}, line(0, -a)});
+    edges.push_back({"right", {}, line(0, a)});
+    edges.push_back({"bottom", {}, line(1, -a)});
+    edges.push_back({"top", {}, line(1, a)});
+    return patches.finish(std::move(edges),
+                          make_chart_map([](const Point<3> &c) {
+                            return Point<3>(c[0], c[1], 0.);
+                          }));
+  }
+
+
+  std::vector<SurfaceParameter>
+  l_shaped_plate_parameters()
+  {
+    return {
+      {"Size",
+       "1",
+       "Side a of the three squares of the plate: [-a,a] x [-a,a] in the plane "
+       "z = 0 without its quarter x > 0, y < 0; normal +z. Edges: x=0 and y=0, "
+       "which meet at the re-entrant corner at the origin, left, right, "
+       "bottom, top. Subdivisions takes one number: cells along each side of a "
+       "square. Units: length"}};
+  }
+
+
+  SurfaceDescription
   make_sphere(const SurfaceInput &input)
   {
     const double       radius = input.positive("Radius");

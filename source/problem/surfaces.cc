@@ -369,6 +369,7 @@ namespace Nacre
     static const std::vector<SurfaceKind> kinds = {
       {"plate", plate_parameters(), make_plate},
       {"disk", disk_parameters(), make_disk},
+      {"L-shaped plate", l_shaped_plate_parameters(), make_l_shaped_plate},
       {"cylinder", cylinder_parameters(), make_cylinder},
       {"sphere", sphere_parameters(), make_sphere},
       {"hemisphere", hemisphere_parameters(), make_hemisphere},

@@ -28,6 +28,17 @@ namespace Nacre
       text << std::setprecision(n_digits) << number;
       return text.str();
     }
+
+    /** Most cells of a rank over the mean of all ranks. */
+    double
+    cell_imbalance(const Discretization &discretization)
+    {
+      const auto &mesh = discretization.triangulation();
+      const auto  cells =
+        Utilities::MPI::min_max_avg(double(mesh.n_locally_owned_active_cells()),
+                                    mesh.get_communicator());
+      return cells.max / cells.avg;
+    }
   } // namespace
 
   ConvergenceStudy::Heading::Heading()
@@ -156,6 +167,8 @@ namespace Nacre
     quantities_.prepare(problem_.midsurface(),
                         problem_.exact_solution(),
                         problem_.constants());
+    adaptive_.prepare(problem_, quantities_);
+    problem_.set_goal(adaptive_.goal());
   }
 
   std::string
@@ -220,6 +233,10 @@ namespace Nacre
            << row.setup_s + row.assembly_s + row.solve_s << " s";
     if (row.iterations > 0)
       line << ", " << row.solver << ", " << row.iterations << " iterations";
+    const double imbalance = cell_imbalance(problem_.discretization());
+    if (adaptive_.is_on() && imbalance > 1.)
+      line << ", cells of a rank max/mean " << std::fixed
+           << std::setprecision(3) << imbalance;
     if (!row.values.empty())
       line << ", " << quantities_.quantities().front().name << " = "
            << std::scientific << std::setprecision(6) << row.values.front();
@@ -274,6 +291,52 @@ namespace Nacre
   }
 
   void
+  ConvergenceStudy::solve_cycles(const ShellCase   &shell_case,
+                                 const std::string &progress,
+                                 ResultsTable      &table,
+                                 VtuOutput         &vtu_output,
+                                 Log               &log)
+  {
+    for (unsigned int cycle = 0; cycle <= adaptive_.n_cycles(); ++cycle)
+      {
+        problem_.solve(log);
+        auto          row = make_row(shell_case);
+        ErrorEstimate estimate;
+        if (adaptive_.is_on())
+          {
+            estimate = adaptive_.estimate(problem_);
+            adaptive_.add_to_row(problem_, estimate, row);
+          }
+        const std::string line = progress_line(row);
+        log.progress() << progress
+                       << (adaptive_.is_on() ?
+                             "cycle " + std::to_string(cycle) + ", " :
+                             "")
+                       << line << std::endl;
+        const unsigned int counter = table.rows().size();
+        table.add_row(row);
+        run_on_root(communicator_, [&]() { table.write_files(base_name()); });
+
+        const SolvedShell &shell = problem_.solution();
+        if (write_vtu_)
+          vtu_output.write(shell.discretization,
+                           shell.section,
+                           shell.kinematics,
+                           shell.displacement,
+                           output_folder_,
+                           name_,
+                           counter,
+                           estimate.indicators);
+        if (cycle == adaptive_.n_cycles())
+          return;
+        const auto marked = adaptive_.mark(estimate, shell.discretization);
+        if (!marked)
+          return;
+        problem_.refine(*marked);
+      }
+  }
+
+  void
   ConvergenceStudy::run(Log &log, const bool restart)
   {
     const auto cases = make_cases();
@@ -288,34 +351,28 @@ namespace Nacre
       columns.push_back({quantity.name,
                          quantity.reference,
                          quantity.is_error || quantity.reference.has_value()});
+    for (const auto &column : adaptive_.columns(problem_.exact_solution()))
+      columns.push_back(column);
     ResultsTable table(heading_.title, columns);
     VtuOutput    vtu_output;
 
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
         prepare_case(cases[k]);
+        const std::string progress = '[' + std::to_string(k + 1) + '/' +
+                                     std::to_string(cases.size()) + "] ";
         if (problem_.is_linear())
-          problem_.solve(log);
-        else
-          follow_path(cases.size() == 1 ? name_ :
-                                          name_ + "_" + std::to_string(k),
-                      restart,
-                      log);
-        const auto row = make_row(cases[k]);
-        table.add_row(row);
-        log.progress() << '[' << k + 1 << '/' << cases.size() << "] "
-                       << progress_line(row) << std::endl;
-
+          {
+            solve_cycles(cases[k], progress, table, vtu_output, log);
+            continue;
+          }
+        follow_path(cases.size() == 1 ? name_ : name_ + "_" + std::to_string(k),
+                    restart,
+                    log);
+        table.add_row(make_row(cases[k]));
+        log.progress() << progress << progress_line(table.rows().back())
+                       << std::endl;
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
-        const SolvedShell &shell = problem_.solution();
-        if (write_vtu_ && problem_.is_linear())
-          vtu_output.write(shell.discretization,
-                           shell.section,
-                           shell.kinematics,
-                           shell.displacement,
-                           output_folder_,
-                           name_,
-                           k);
       }
 
     std::ostringstream text;

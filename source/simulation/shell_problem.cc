@@ -4,6 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
+#include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/chosen_solver.h>
 #include <nacre/simulation/shell_problem.h>
@@ -98,6 +99,7 @@ namespace Nacre
   ShellProblem::prepare(const Constants &constants, const ShellCase &shell_case)
   {
     case_ = shell_case;
+    refined_mesh_.reset();
     check_element();
     if (case_.thickness)
       section_->set_thickness(*case_.thickness);
@@ -217,11 +219,17 @@ namespace Nacre
     discretization_.reset();
 
     Timer timer(communicator_, true);
-    discretization_ = std::make_unique<Discretization>(midsurface_,
-                                                       communicator_,
-                                                       element(),
-                                                       mapping_degree_,
-                                                       case_.n_refinements);
+    discretization_ = std::make_unique<Discretization>(
+      refined_mesh_ != nullptr ?
+        std::move(refined_mesh_) :
+        midsurface_.create_triangulation(communicator_,
+                                         element().reference_cell(),
+                                         case_.n_refinements),
+      [this](const auto &cell, const auto &unit) {
+        return midsurface_.position(cell, unit);
+      },
+      element(),
+      mapping_degree_);
     conditions_ =
       std::make_unique<DisplacementConditions>(*discretization_,
                                                boundary_conditions_);
@@ -403,27 +411,89 @@ namespace Nacre
       }
   }
 
-  TrilinosWrappers::MPI::Vector
-  ShellProblem::solve_again(const TrilinosWrappers::MPI::Vector &b)
-  {
-    Assert(conditions_ != nullptr, ExcNotInitialized());
-    const IndexSet           &owned = discretization_->locally_owned_dofs();
-    AffineConstraints<double> homogeneous(conditions_->constraints());
-    for (const auto &line : conditions_->constraints().get_lines())
-      homogeneous.set_inhomogeneity(line.index, 0.);
-    // What acts on a constrained dof acts on those that determine it.
-    TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
-    for (const auto i : owned)
-      if (b(i) != 0.)
-        homogeneous.distribute_local_to_global(i, b(i), right_hand_side);
-    right_hand_side.compress(VectorOperation::add);
+    constraints.distribute(solution);
+    displacement_.reinit(owned,
+                         discretization_->locally_relevant_dofs(),
+                         communicator_);
+    displacement_ = solution;
+    if (goal_ != nullptr)
+      {
+        solve_dual(*solver_, constraints);
+        lap(times_.solve);
+      }
+  }
 
-    TrilinosWrappers::MPI::Vector solution(owned, communicator_);
-    solver_->solve(solution, right_hand_side);
-    homogeneous.distribute(solution);
-    TrilinosWrappers::MPI::Vector
-      ghosted(owned, discretization_->locally_relevant_dofs(), communicator_);
-    ghosted = solution;
-    return ghosted;
+  void
+  ShellProblem::solve_dual(LinearSolver                    &solver,
+                           const AffineConstraints<double> &constraints)
+  {
+    using Vector          = TrilinosWrappers::MPI::Vector;
+    const IndexSet &owned = discretization_->locally_owned_dofs();
+    dual_.reinit(displacement_);
+    if (goal_->is_energy)
+      {
+        // U = l(u)/2 for data that do no work of their own.
+        dual_ = displacement_;
+        dual_ *= 0.5;
+        return;
+      }
+    Vector load(owned, communicator_), edge(owned, communicator_);
+    if (goal_->load)
+      load = goal_->load(*discretization_);
+    else
+      {
+        // z = w - v with w the response to K v.
+        edge  = goal_->edge(*discretization_);
+        dual_ = edge;
+        Vector without(owned, communicator_), zero(dual_);
+        zero = 0.;
+        operator_->residual(zero, without);
+        operator_->residual(dual_, load);
+        load.add(-1., without);
+      }
+    Vector condensed(owned, communicator_);
+    for (const auto i : owned)
+      if (!constraints.is_constrained(i))
+        condensed(i) += load(i);
+      else
+        for (const auto &[j, weight] : *constraints.get_constraint_entries(i))
+          condensed(j) += weight * load(i);
+    condensed.compress(VectorOperation::add);
+
+    Vector solution(owned, communicator_), offset(owned, communicator_);
+    solver.solve(solution, condensed);
+    constraints.distribute(solution);
+    constraints.distribute(offset);
+    solution.add(-1., offset);
+    solution.add(-1., edge);
+    dual_ = solution;
+  }
+
+  std::unique_ptr<ErrorEstimator>
+  ShellProblem::make_error_estimator() const
+  {
+    return std::make_unique<ErrorEstimator>(*discretization_,
+                                            *section_,
+                                            boundary_conditions_,
+                                            loads_,
+                                            operator_->penalty(),
+                                            kinematics_options());
+  }
+
+  void
+  ShellProblem::refine(const std::vector<bool> &marked)
+  {
+    auto mesh = discretization_->release_triangulation();
+    solution_.reset();
+    solver_.reset();
+    matrix_.clear();
+    conditions_.reset();
+    operator_.reset();
+    discretization_.reset();
+    for (const auto &cell : mesh->active_cell_iterators())
+      if (cell->is_locally_owned() && marked[cell->active_cell_index()])
+        cell->set_refine_flag();
+    mesh->execute_coarsening_and_refinement();
+    refined_mesh_ = std::move(mesh);
   }
 } // namespace Nacre

@@ -147,6 +147,16 @@ namespace Nacre
     std::pair<Point<spacedim>, double>
     extent() const;
 
+    /**
+     * Hand over the mesh, to refine it once this object is gone, which is all
+     * that may happen to it from then on.
+     */
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+    release_triangulation()
+    {
+      return std::move(triangulation_);
+    }
+
   private:
     void
     build_geometry(const std::function<Point<spacedim>(

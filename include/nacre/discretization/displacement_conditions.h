@@ -7,6 +7,7 @@
 #include <nacre/discretization/discretization.h>
 #include <nacre/problem/boundary_conditions.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,17 @@ namespace Nacre
      */
     std::vector<std::string>
     free_rigid_motions() const;
+
+    /**
+     * The part of a @p force at a point of the edge @p id along the directions
+     * in which no displacement is prescribed there.
+     * @param normal t0 @param conormal outward, both unit vectors
+     */
+    Tensor<1, spacedim>
+    free_part(const types::boundary_id   id,
+              const Tensor<1, spacedim> &normal,
+              const Tensor<1, spacedim> &conormal,
+              const Tensor<1, spacedim> &force) const;
 
   private:
     using Vector3 = Tensor<1, spacedim>;
@@ -127,6 +139,8 @@ namespace Nacre
 
     /** By the node's first dof, the same on all ranks. */
     std::map<types::global_dof_index, Node> nodes_;
+    /** Unit normals of the planes that hold symmetry and diaphragm edges. */
+    std::map<types::boundary_id, Vector3> planes_;
     /** Rotation axes t at X where t . omega is prevented. */
     std::vector<Vector3> rotation_axes_;
   };

@@ -43,6 +43,28 @@ namespace Nacre
     //@}
   };
 
+  /**
+   * What makes a quantity the goal of an error estimate: its derivative at
+   * any displacement, or that it is the energy. A quantity Q(u) is linear with
+   * one of
+   *   load: Q(u) = g . u
+   *   edge: Q(u) = v . (K u - f), the virtual work of the residual on the
+   *         displacement v of an edge
+   */
+  struct GoalFunctional
+  {
+    using Vector = TrilinosWrappers::MPI::Vector;
+    std::function<Vector(const Discretization &)> load;
+    std::function<Vector(const Discretization &)> edge;
+    bool                                          is_energy = false;
+
+    bool
+    is_known() const
+    {
+      return load || edge || is_energy;
+    }
+  };
+
   /** The quantities that a study reports, by name. */
   class QuantitiesOfInterest : public ParameterAcceptor
   {
@@ -55,6 +77,8 @@ namespace Nacre
       bool is_error = false;
       /** The value; collective. */
       std::function<double(const SolvedShell &)> evaluate;
+      /** Unknown for quantities that can't be a goal. */
+      GoalFunctional goal;
     };
 
     QuantitiesOfInterest();

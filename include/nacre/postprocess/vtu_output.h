@@ -38,6 +38,7 @@ namespace Nacre
    * at z = h/2, 0, -h/2 along t0 | force/length^2 |
    * | energy_density | (n : eps + m : rho)/2 | force/length |
    * | rank | MPI rank that owns the cell | - |
+   * | error_indicator | eta_K of the cell, if given | |
    *
    * The strain at the distance z along t0 is eps + z rho, since
    * rho_ab = -u,ab . t0 on a plate: positive moments stretch the top.
@@ -55,11 +56,13 @@ namespace Nacre
     /**
      * @param kinematics the membrane strains are tied unless they are `full`
      * @param displacement ghosted (length)
+     * @param error_indicators by active cell index, if any
      */
     ShellFields(const Discretization                &discretization,
                 const SectionLaw                    &section,
                 const KinematicsOptions             &kinematics,
-                const TrilinosWrappers::MPI::Vector &displacement);
+                const TrilinosWrappers::MPI::Vector &displacement,
+                const std::vector<double>           &error_indicators = {});
 
     /**
      * One patch for each of this rank's cells; data[component][point], points
@@ -76,6 +79,7 @@ namespace Nacre
     get_nonscalar_data_ranges() const override;
 
   private:
+    bool               has_error_indicators_;
     std::vector<Patch> patches_;
   };
 
@@ -101,7 +105,8 @@ namespace Nacre
           const TrilinosWrappers::MPI::Vector &ghosted_displacement,
           const std::string                   &folder,
           const std::string                   &name,
-          const unsigned int                   counter)
+          const unsigned int                   counter,
+          const std::vector<double>           &error_indicators = {})
     {
       write(discretization,
             section,
@@ -110,7 +115,8 @@ namespace Nacre
             folder,
             name,
             counter,
-            counter);
+            counter,
+            error_indicators);
     }
 
     /** The same with the @p time that the .pvd tells of. */
@@ -122,7 +128,8 @@ namespace Nacre
           const std::string                   &folder,
           const std::string                   &name,
           const unsigned int                   counter,
-          const double                         time);
+          const double                         time,
+          const std::vector<double>           &error_indicators = {});
 
     /** Go on with a .pvd of the counters and times @p written already. */
     void

@@ -185,6 +185,16 @@ namespace Nacre
   disk_parameters();
 
   /**
+   * Three squares of side a in the plane z = 0, an L with its re-entrant corner
+   * at the origin; x = c.
+   */
+  SurfaceDescription
+  make_l_shaped_plate(const SurfaceInput &input);
+
+  std::vector<SurfaceParameter>
+  l_shaped_plate_parameters();
+
+  /**
    * Sphere of radius R about the origin. The chart is a point c of the surface
    * of the cube [-1, 1]^3, x = R d/|d| with d_i = tan(pi c_i/4).
    */

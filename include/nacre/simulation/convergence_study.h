@@ -7,6 +7,7 @@
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/results_table.h>
+#include <nacre/simulation/adaptive_refinement.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -18,6 +19,7 @@
 namespace Nacre
 {
   class Log;
+  class VtuOutput;
 
   /**
    * What a parameter file describes: a shell and the lists of degrees,
@@ -79,6 +81,18 @@ namespace Nacre
     void
     follow_path(const std::string &name, const bool restart, Log &log);
 
+    /**
+     * Solve one case on its mesh and, with adaptive refinement, on refined
+     * ones: a row, and fields, of each.
+     * @param progress what the lines of progress begin with
+     */
+    void
+    solve_cycles(const ShellCase   &shell_case,
+                 const std::string &progress,
+                 ResultsTable      &table,
+                 VtuOutput         &vtu_output,
+                 Log               &log);
+
     /** The row of the case just solved. */
     ResultsTable::Row
     make_row(const ShellCase &shell_case) const;
@@ -100,6 +114,7 @@ namespace Nacre
 
     ShellProblem         problem_;
     QuantitiesOfInterest quantities_;
+    AdaptiveRefinement   adaptive_;
   };
 } // namespace Nacre
 

@@ -26,7 +26,10 @@ namespace Nacre
   class Log;
   class ChosenSolver;
   class DisplacementConditions;
+  class ErrorEstimator;
+  class LinearSolver;
   class ShellOperator;
+  struct GoalFunctional;
   struct LinearSolverParameters;
   struct SolveAccuracy;
   struct SolvedShell;
@@ -87,6 +90,37 @@ namespace Nacre
     void
     solve(Log &log);
 
+    /**
+     * Let each solve() compute the dual solution of a quantity of interest,
+     * too; null for none.
+     */
+    void
+    set_goal(const GoalFunctional *goal)
+    {
+      goal_ = goal;
+    }
+
+    /**
+     * The dual solution z of the goal, ghosted: a change of the solution's
+     * residual changes the quantity by the residual's work on z.
+     */
+    const TrilinosWrappers::MPI::Vector &
+    dual_solution() const
+    {
+      return dual_;
+    }
+
+    /** The estimator of errors of the last solve(). */
+    std::unique_ptr<ErrorEstimator>
+    make_error_estimator() const;
+
+    /**
+     * Quarter the cells @p marked, by active cell index, of this rank; the
+     * next solve() takes the refined mesh. solution() is gone.
+     */
+    void
+    refine(const std::vector<bool> &marked);
+
     /** Called after each step of a path. */
     using PathObserver =
       std::function<void(const PathState &, const SolvedShell &)>;
@@ -123,14 +157,6 @@ namespace Nacre
     {
       return solver_record_;
     }
-
-    /**
-     * Solve K x = b once more with the matrix of the last solve(); the
-     * prescribed displacements are zero. @p b without the constraints
-     * eliminated, as the virtual work of forces; x is ghosted.
-     */
-    TrilinosWrappers::MPI::Vector
-    solve_again(const TrilinosWrappers::MPI::Vector &b);
 
     /** The largest eta taken (1). */
     double
@@ -201,6 +227,11 @@ namespace Nacre
     void
     judge(const SolveAccuracy &accuracy, Log &log) const;
 
+    /** The dual solution with the factors of the system just solved. */
+    void
+    solve_dual(LinearSolver                    &solver,
+               const AffineConstraints<double> &constraints);
+
     void
     check_element() const;
 
@@ -232,13 +263,18 @@ namespace Nacre
 
     std::unique_ptr<LinearSolverParameters> solver_parameters_;
 
+    /** Refined, for the next set-up; null: that of the case. */
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> refined_mesh_;
+    const GoalFunctional                                       *goal_ = nullptr;
+
     std::unique_ptr<Discretization> discretization_;
     std::unique_ptr<ShellOperator>  operator_;
     TrilinosWrappers::MPI::Vector   displacement_;
+    TrilinosWrappers::MPI::Vector   dual_;
     TrilinosWrappers::MPI::Vector   residual_;
     TrilinosWrappers::MPI::Vector   velocity_;
 
-    /** The linear system of solve(), kept for solve_again(). */
+    /** The linear system of solve(), kept for dual solutions. */
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
     std::unique_ptr<ChosenSolver>           solver_;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_error_estimator_h
+#define nacre_postprocess_error_estimator_h
+
+#include <nacre/discretization/displacement_conditions.h>
+#include <nacre/discretization/shell_values.h>
+#include <nacre/forms/edge_penalty.h>
+#include <nacre/forms/kinematics_options.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <array>
+#include <vector>
+
+namespace Nacre
+{
+  class BoundaryConditions;
+  class Loads;
+
+  /** The residuals that an estimate is made of. */
+  enum class Residual
+  {
+    /** Equilibrium within the cell: p + div f. */
+    equilibrium,
+    /** Jump of the traction, the effective shear included; edge forces. */
+    traction,
+    /** Jump of the bending moment m_nn; moments prescribed. */
+    moment,
+    /** Jump of the rotation; rotations prescribed. */
+    rotation
+  };
+  constexpr unsigned int n_residuals = 4;
+
+  /** eta_K^2 (force times length), or products of two fields' residuals. */
+  class ErrorIndicators
+  {
+  public:
+    explicit ErrorIndicators(const unsigned int n_cells = 0)
+      : parts_(n_cells)
+    {}
+
+    /** By active cell index and residual; 0 for cells of other ranks. */
+    double
+    part(const unsigned int cell, const Residual residual) const
+    {
+      return parts_[cell][static_cast<unsigned int>(residual)];
+    }
+
+    void
+    add(const unsigned int cell, const Residual residual, const double value)
+    {
+      parts_[cell][static_cast<unsigned int>(residual)] += value;
+    }
+
+    unsigned int
+    n_cells() const
+    {
+      return parts_.size();
+    }
+
+    /** All residuals of the cell @p cell. */
+    double
+    of_cell(const unsigned int cell) const;
+
+    /** Sum over the cells of all ranks; collective. */
+    double
+    total(const MPI_Comm communicator) const;
+
+    /** The same of one residual. */
+    double
+    total(const Residual residual, const MPI_Comm communicator) const;
+
+  private:
+    std::vector<std::array<double, n_residuals>> parts_;
+  };
+
+  /**
+   * Residual estimator of the energy norm of the error,
+   *
+   *   eta_K^2 = int_K r . W r dA                              equilibrium
+   *     + 1/2 sum_e int_e k/4 J . W J                         traction
+   *                     + k^3/4 W_n [[m_nn]]^2                moment
+   *                     + eta^e D [[theta]]^2 ds              rotation
+   *
+   * with the residuals of the strong form: the vector of internal forces
+   *   f^b = n^ab a_a + (1/sqrt a) (sqrt a m^ab t0),a + m^cd Gamma^b_cd t0
+   * and p the load give r = p + div f; J is the jump of the traction
+   * f^b nu_b + d/ds (m^ab nu_a tau_b t0). The stresses are interpolated
+   * within each cell and differentiated, and no residual is split into
+   * components: the weight W (a tensor of space) does that.
+   *
+   * W = mean of A(k)^-1 over the directions of waves k that a cell resolves
+   * just no more, k = pi p on the reference cell, and A(k) is the symbol of
+   * the shell's energy: on a plate W_n = 1/(D k^4) ~ h^4 / D and the tangential
+   * part ~ h^2 / C; on a curved thin shell the membrane stiffness against
+   * deflections bounds W_n, so that the estimate holds from thick to thin.
+   * doc/adaptive.md derives it and tells what is neglected.
+   */
+  class ErrorEstimator
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+
+    /** A displacement and the data whose solution it approximates. */
+    struct Field
+    {
+      /** Ghosted displacement (length). */
+      const Vector *displacement;
+      /**
+       * Whether loads act and rotations are prescribed as stated; else all of
+       * them are 0, as for the dual solution.
+       */
+      bool has_data = true;
+    };
+
+    /** Everything must stay alive; collective. */
+    ErrorEstimator(const Discretization     &discretization,
+                   const SectionLaw         &section,
+                   const BoundaryConditions &boundary_conditions,
+                   const Loads              &loads,
+                   const EdgePenalty        &penalty,
+                   const KinematicsOptions  &kinematics);
+
+    /** eta_K^2 of one field; collective. */
+    ErrorIndicators
+    estimate(const Field &field) const;
+
+    /** Of two fields: eta_K^2(u), eta_K^2(z), and the signed products. */
+    std::array<ErrorIndicators, 3>
+    estimate(const Field &u, const Field &z) const;
+
+    /**
+     * W (length^3/force) of waves that the cell of @p frame resolves just no
+     * more: see above.
+     */
+    static Tensor<2, spacedim>
+    weight(const SurfaceFrame<>   &frame,
+           const SectionStiffness &stiffness,
+           const unsigned int      degree);
+
+  private:
+    class Stresses;
+    class Assembly;
+
+    const Discretization        &discretization_;
+    const SectionLaw            &section_;
+    const BoundaryConditions    &boundary_conditions_;
+    const Loads                 &loads_;
+    const EdgePenalty           &penalty_;
+    const KinematicsOptions      kinematics_;
+    const DisplacementConditions conditions_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_adaptive_refinement_h
+#define nacre_simulation_adaptive_refinement_h
+
+#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/postprocess/results_table.h>
+#include <nacre/simulation/shell_problem.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /** An estimated error and where it comes from. */
+  struct ErrorEstimate
+  {
+    /**
+     * The norm of the error in the energy, (sum eta_K^2)^1/2; or the error of
+     * the goal with its sign, exact minus computed.
+     */
+    double value = 0.;
+    /** For a goal: sum eta_K(u) eta_K(z), without cancellation. */
+    double bound = 0.;
+    /** eta_K^2, or eta_K(u) eta_K(z), by active cell index. */
+    std::vector<double> indicators;
+    /** CPU seconds, summed over the ranks. */
+    double seconds = 0.;
+  };
+
+  /**
+   * Cycles of solving, estimating the error, and refining where it is large:
+   * doc/adaptive.md.
+   */
+  class AdaptiveRefinement : public ParameterAcceptor
+  {
+  public:
+    AdaptiveRefinement();
+
+    /**
+     * Check the parameters against the problem; throws for a goal that isn't
+     * among @p quantities or isn't linear.
+     */
+    void
+    prepare(const ShellProblem         &problem,
+            const QuantitiesOfInterest &quantities);
+
+    /** Whether errors are estimated. */
+    bool
+    is_on() const
+    {
+      return n_cycles_ > 0;
+    }
+
+    /** Refinements after the first mesh. */
+    unsigned int
+    n_cycles() const
+    {
+      return n_cycles_;
+    }
+
+    /** The goal, or null for the energy norm of the error. */
+    const GoalFunctional *
+    goal() const;
+
+    /** The error of the last solve of @p problem; collective. */
+    ErrorEstimate
+    estimate(const ShellProblem &problem) const;
+
+    /** Columns of the table that tell of the estimate. */
+    std::vector<ResultsTable::Quantity>
+    columns(const ExactSolution &exact_solution) const;
+
+    /**
+     * Add their values to a row.
+     * @param values of the quantities
+     */
+    void
+    add_to_row(const ShellProblem  &problem,
+               const ErrorEstimate &estimate,
+               ResultsTable::Row   &row) const;
+
+    /** The cells to refine, or nothing if the mesh has dofs enough. */
+    std::optional<std::vector<bool>>
+    mark(const ErrorEstimate &estimate, const Discretization &mesh) const;
+
+  private:
+    unsigned int n_cycles_  = 0;
+    std::string  estimator_ = "residual";
+    std::string  goal_name_;
+    std::string  marking_  = "Doerfler";
+    double       fraction_ = 0.5;
+    unsigned int max_dofs_ = 1000000;
+
+    /** Place of the goal among the quantities. */
+    std::optional<unsigned int> goal_index_;
+    GoalFunctional              goal_;
+    std::optional<double>       reference_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,716 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/mutation.h>
+#include <nacre/forms/hinge_form.h>
+#include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/error_estimator.h>
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/loads.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3  = Tensor<1, spacedim>;
+    using Tensor3  = Tensor<2, spacedim>;
+    using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+
+    /**
+     * Rows [point][node] that give the nodal values of the polynomial of the
+     * element that is closest to values at the points: collocation where there
+     * are as many points as nodes.
+     */
+    FullMatrix<double>
+    make_projection(const ShapeTable &shapes, const Quadrature<dim> &quadrature)
+    {
+      const unsigned int n = shapes.n_nodes();
+      FullMatrix<double> values(n, quadrature.size()), normal(n, n);
+      FullMatrix<double> projection(n, quadrature.size());
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          {
+            values(a, q) = quadrature.weight(q) * shapes.value(q, a);
+            for (unsigned int b = 0; b < n; ++b)
+              normal(a, b) += values(a, q) * shapes.value(q, b);
+          }
+      normal.gauss_jordan();
+      normal.mmult(projection, values);
+      return projection;
+    }
+
+    /** Derivatives of Lagrange polynomials through points: [point][node]. */
+    FullMatrix<double>
+    make_differentiation(const Quadrature<1> &points)
+    {
+      const unsigned int n = points.size();
+      FullMatrix<double> matrix(n, n);
+      const auto x = [&](const unsigned int i) { return points.point(i)[0]; };
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int k = 0; k < n; ++k)
+            if (k != j)
+              {
+                double product = 1. / (x(j) - x(k));
+                for (unsigned int l = 0; l < n; ++l)
+                  if (l != j && l != k)
+                    product *= (x(i) - x(l)) / (x(j) - x(l));
+                matrix(i, j) += product;
+              }
+      return matrix;
+    }
+
+    /** Wave number on the reference cell: p half waves along an edge. */
+    double
+    wave_number(const unsigned int degree)
+    {
+      return numbers::PI * degree;
+    }
+
+    /** Height of the cell over its edge of the conormal @p n (length). */
+    double
+    height(const SurfaceFrame<> &frame, const Vector3 &n)
+    {
+      return 1. / std::hypot(frame.a_con[0] * n, frame.a_con[1] * n);
+    }
+  } // namespace
+
+  double
+  ErrorIndicators::of_cell(const unsigned int cell) const
+  {
+    double sum = 0.;
+    for (const double part : parts_[cell])
+      sum += part;
+    return sum;
+  }
+
+  double
+  ErrorIndicators::total(const MPI_Comm communicator) const
+  {
+    double sum = 0.;
+    for (unsigned int cell = 0; cell < parts_.size(); ++cell)
+      sum += of_cell(cell);
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+  double
+  ErrorIndicators::total(const Residual residual,
+                         const MPI_Comm communicator) const
+  {
+    double sum = 0.;
+    for (unsigned int cell = 0; cell < parts_.size(); ++cell)
+      sum += part(cell, residual);
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+  Tensor<2, spacedim>
+  ErrorEstimator::weight(const SurfaceFrame<>   &frame,
+                         const SectionStiffness &stiffness,
+                         const unsigned int      degree)
+  {
+    const Vector3 e1 = frame.a_cov[0] / frame.a_cov[0].norm();
+    const std::array<Vector3, spacedim> basis = {
+      {e1, cross_product_3d(frame.t0, e1), frame.t0}};
+    constexpr unsigned int n_directions = 12;
+
+    Tensor3 sum;
+    for (unsigned int d = 0; d < n_directions; ++d)
+      {
+        // The wave u = i v_t cos + v_n t0 with the covariant components k_a.
+        const double phi = numbers::PI * (d + 0.5) / n_directions;
+        const double k[] = {wave_number(degree) * std::cos(phi),
+                            wave_number(degree) * std::sin(phi)};
+        std::array<Voigt<>, spacedim> eps;
+        for (unsigned int c = 0; c < 2; ++c)
+          {
+            const double v[] = {basis[c] * frame.a_cov[0],
+                                basis[c] * frame.a_cov[1]};
+            eps[c][0]        = k[0] * v[0];
+            eps[c][1]        = k[1] * v[1];
+            eps[c][2]        = k[0] * v[1] + k[1] * v[0];
+          }
+        for (unsigned int v = 0; v < 3; ++v)
+          eps[2][v] =
+            -(v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0);
+        Voigt<> rho;
+        rho[0] = k[0] * k[0];
+        rho[1] = k[1] * k[1];
+        rho[2] = 2. * k[0] * k[1];
+
+        Tensor3 symbol;
+        for (unsigned int c = 0; c < spacedim; ++c)
+          for (unsigned int e = 0; e < spacedim; ++e)
+            symbol[c][e] = eps[c] * (stiffness.membrane * eps[e]);
+        symbol[2][2] += rho * (stiffness.bending * rho);
+        sum += invert(symbol) / n_directions;
+      }
+    // Waves along k and -k: what couples tangential and normal cancels.
+    Tensor3 weight = sum[2][2] * outer_product(frame.t0, frame.t0);
+    for (unsigned int c = 0; c < 2; ++c)
+      for (unsigned int e = 0; e < 2; ++e)
+        weight += sum[c][e] * outer_product(basis[c], basis[e]);
+    return weight;
+  }
+
+
+  /**
+   * The stress resultants of one or two fields as polynomials of the reference
+   * cell, on this rank's cells and ghosts: the vectors
+   *   N^b  = sqrt a (n^ab a_a + m^cd Gamma^b_cd t0)    b = 1, 2
+   *   M^ab = sqrt a m^ab t0                            ab = 11, 22, 12
+   * of which sqrt a f^b = N^b + M^ab,a.
+   */
+  class ErrorEstimator::Stresses
+  {
+  public:
+    static constexpr unsigned int n_vectors = 5;
+
+    Stresses(const ErrorEstimator &estimator, const std::vector<Field> &fields)
+      : discretization_(estimator.discretization_)
+      , section_(estimator.section_)
+      , fields_(fields)
+      , quadrature_(discretization_.element().full_quadrature())
+      , values_(discretization_,
+                quadrature_,
+                estimator.kinematics_.membrane_strain == MembraneStrain::tied)
+      , projection_(make_projection(values_.shapes(), quadrature_))
+      , u_(values_.n_dofs())
+      , weights_(discretization_.triangulation().n_active_cells())
+      , nodal_(weights_.size() * fields.size() * n_vectors * projection_.m())
+    {
+      ShellCellValues centre(discretization_,
+                             Quadrature<dim>(discretization_.element()
+                                               .reference_cell()
+                                               .template barycenter<dim>()),
+                             false);
+      for (const auto &cell :
+           discretization_.dof_handler().active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            centre.reinit_frames(cell);
+            weights_[cell->active_cell_index()] =
+              weight(centre.frame(0),
+                     section_.stiffness(centre.frame(0), centre.point(0)),
+                     discretization_.degree());
+            fill(cell);
+          }
+    }
+
+    /** W of a cell. */
+    const Tensor3 &
+    weight_of(const Iterator &cell) const
+    {
+      return weights_[cell->active_cell_index()];
+    }
+
+    /** Nodal values [vector][node] of a field on a cell. */
+    const Vector3 *
+    nodal(const Iterator &cell, const unsigned int field) const
+    {
+      return &nodal_[(cell->active_cell_index() * fields_.size() + field) *
+                     n_vectors * projection_.m()];
+    }
+
+    /** sqrt a f^b at a point of a table. */
+    static std::array<Vector3, 2>
+    forces(const Vector3 *nodal, const ShapeTable &shapes, const unsigned int q)
+    {
+      std::array<Vector3, 2> f;
+      const unsigned int     n = shapes.n_nodes();
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          const auto &dN = shapes.gradient(q, a);
+          f[0] += shapes.value(q, a) * nodal[a] + dN[0] * nodal[2 * n + a] +
+                  dN[1] * nodal[4 * n + a];
+          f[1] += shapes.value(q, a) * nodal[n + a] + dN[1] * nodal[3 * n + a] +
+                  dN[0] * nodal[4 * n + a];
+        }
+      return f;
+    }
+
+    /** Divergence (sqrt a f^b),b. */
+    static Vector3
+    divergence(const Vector3     *nodal,
+               const ShapeTable  &shapes,
+               const unsigned int q)
+    {
+      Vector3            sum;
+      const unsigned int n = shapes.n_nodes();
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          const auto &dN  = shapes.gradient(q, a);
+          const auto &ddN = shapes.hessian(q, a);
+          sum += dN[0] * nodal[a] + dN[1] * nodal[n + a] +
+                 ddN[0] * nodal[2 * n + a] + ddN[1] * nodal[3 * n + a] +
+                 2. * ddN[2] * nodal[4 * n + a];
+        }
+      return sum;
+    }
+
+    /** sqrt a m^ab x_a y_b t0 for covariant components x, y. */
+    static Vector3
+    moment(const Vector3               *nodal,
+           const ShapeTable            &shapes,
+           const unsigned int           q,
+           const std::array<double, 2> &x,
+           const std::array<double, 2> &y)
+    {
+      Vector3            sum;
+      const unsigned int n = shapes.n_nodes();
+      for (unsigned int a = 0; a < n; ++a)
+        sum +=
+          shapes.value(q, a) *
+          (x[0] * y[0] * nodal[2 * n + a] + x[1] * y[1] * nodal[3 * n + a] +
+           (x[0] * y[1] + x[1] * y[0]) * nodal[4 * n + a]);
+      return sum;
+    }
+
+  private:
+    void
+    fill(const Iterator &cell)
+    {
+      values_.reinit(cell);
+      const unsigned int n = projection_.m();
+      for (unsigned int field = 0; field < fields_.size(); ++field)
+        {
+          cell->get_dof_values(*fields_[field].displacement, u_);
+          Vector3 *nodal = const_cast<Vector3 *>(this->nodal(cell, field));
+          for (unsigned int q = 0; q < quadrature_.size(); ++q)
+            {
+              const auto vectors = at_point(q);
+              for (unsigned int v = 0; v < n_vectors; ++v)
+                for (unsigned int a = 0; a < n; ++a)
+                  nodal[v * n + a] += projection_(a, q) * vectors[v];
+            }
+        }
+    }
+
+    std::array<Vector3, n_vectors>
+    at_point(const unsigned int q) const
+    {
+      Voigt<> eps, rho;
+      for (unsigned int v = 0; v < 3; ++v)
+        for (unsigned int i = 0; i < u_.size(); ++i)
+          {
+            eps[v] += values_.membrane_rows()(3 * q + v, i) * u_[i];
+            rho[v] += values_.bending_rows()(3 * q + v, i) * u_[i];
+          }
+      const auto &frame     = values_.frame(q);
+      const auto  stiffness = section_.stiffness(frame, values_.point(q));
+      const auto  n         = frame.j0 * (stiffness.membrane * eps);
+      const auto  m         = frame.j0 * (stiffness.bending * rho);
+      const auto &a         = frame.a_cov;
+
+      std::array<Vector3, n_vectors> vectors;
+      vectors[0] = n[0] * a[0] + n[2] * a[1];
+      vectors[1] = n[2] * a[0] + n[1] * a[1];
+      for (unsigned int b = 0; b < 2; ++b)
+        {
+          const auto &Gamma = frame.christoffel[b];
+          vectors[b] +=
+            (m[0] * Gamma[0] + m[1] * Gamma[1] + 2. * m[2] * Gamma[2]) *
+            frame.t0;
+        }
+      for (unsigned int v = 0; v < 3; ++v)
+        vectors[2 + v] = m[v] * frame.t0;
+      return vectors;
+    }
+
+    const Discretization     &discretization_;
+    const SectionLaw         &section_;
+    const std::vector<Field> &fields_;
+    const Quadrature<dim>     quadrature_;
+    ShellCellValues           values_;
+    const FullMatrix<double>  projection_;
+    dealii::Vector<double>    u_;
+    std::vector<Tensor3>      weights_;
+    /** [cell][field][vector][node] */
+    std::vector<Vector3> nodal_;
+  };
+
+
+  /** The residuals of one or two fields, and their products. */
+  class ErrorEstimator::Assembly
+  {
+  public:
+    Assembly(const ErrorEstimator &estimator, const std::vector<Field> &fields)
+      : estimator_(estimator)
+      , discretization_(estimator.discretization_)
+      , fields_(fields)
+      , stresses_(estimator, fields)
+      , cell_values_(discretization_,
+                     discretization_.element().full_quadrature(),
+                     false)
+      , edge_(discretization_)
+      , edge_rule_(discretization_.element().edge_quadrature())
+      , differentiation_(make_differentiation(edge_rule_))
+      , vectors_(fields.size())
+      , moments_(fields.size())
+      , rotations_(fields.size())
+    {
+      for (unsigned int f = 0; f < fields.size(); ++f)
+        for (unsigned int g = f; g < fields.size(); ++g)
+          pairs_.emplace_back(f, g);
+      products_.assign(pairs_.size(),
+                       ErrorIndicators(
+                         discretization_.triangulation().n_active_cells()));
+    }
+
+    /** Indicators of (0, 0), (0, 1), (1, 1), or of (0, 0) only. */
+    std::vector<ErrorIndicators>
+    run()
+    {
+      run_on_all_ranks(discretization_.communicator(), [&]() {
+        for (const auto &cell :
+             discretization_.dof_handler().active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              add_cell(cell);
+              for (const auto face : cell->face_indices())
+                add_face(cell, face);
+            }
+      });
+      return std::move(products_);
+    }
+
+  private:
+    /** Add @p factor times @p product(f, g) for all pairs of fields. */
+    template <typename Product>
+    void
+    add(const Iterator &cell,
+        const Residual  residual,
+        const double    factor,
+        const Product  &product)
+    {
+      if (cell->is_locally_owned())
+        for (unsigned int k = 0; k < pairs_.size(); ++k)
+          products_[k].add(cell->active_cell_index(),
+                           residual,
+                           factor * product(pairs_[k].first, pairs_[k].second));
+    }
+
+    void
+    add_cell(const Iterator &cell)
+    {
+      cell_values_.reinit_frames(cell);
+      const auto &section = estimator_.section_;
+      const auto &loads   = estimator_.loads_;
+      const auto &W       = stresses_.weight_of(cell);
+      for (unsigned int q = 0; q < cell_values_.n_points(); ++q)
+        {
+          const auto &frame = cell_values_.frame(q);
+          const auto  x     = cell_values_.point(q);
+          for (unsigned int f = 0; f < fields_.size(); ++f)
+            {
+              vectors_[f] = Stresses::divergence(stresses_.nodal(cell, f),
+                                                 cell_values_.shapes(),
+                                                 q) /
+                            frame.j0;
+              if (fields_[f].has_data && !loads.no_surface_load())
+                vectors_[f] += loads.force_per_area(x,
+                                                    frame.t0,
+                                                    section.density(x) *
+                                                      section.thickness(x));
+            }
+          add(cell,
+              Residual::equilibrium,
+              cell_values_.JxW(q),
+              [&](const unsigned int f, const unsigned int g) {
+                return vectors_[f] * (W * vectors_[g]);
+              });
+        }
+    }
+
+    /** Each edge once on each rank that owns one of its cells. */
+    void
+    add_face(const Iterator &cell, const unsigned int face)
+    {
+      const auto whole = numbers::invalid_unsigned_int;
+      if (cell->at_boundary(face))
+        {
+          edge_.reinit(cell, face);
+          add_edge({{cell, cell}}, cell->face(face)->boundary_id());
+        }
+      else if (cell->neighbor(face)->has_children())
+        {
+          const unsigned int back = cell->neighbor_of_neighbor(face);
+          for (unsigned int sub = 0; sub < cell->face(face)->n_children();
+               ++sub)
+            {
+              const auto child = cell->neighbor_child_on_subface(face, sub);
+              if (child->is_locally_owned())
+                continue;
+              edge_.reinit(cell, face, sub, child, back, whole);
+              add_edge({{cell, child}}, numbers::internal_face_boundary_id);
+            }
+        }
+      else if (cell->neighbor_is_coarser(face))
+        {
+          const auto neighbor = cell->neighbor(face);
+          const auto back     = cell->neighbor_of_coarser_neighbor(face);
+          edge_.reinit(cell, face, whole, neighbor, back.first, back.second);
+          add_edge({{cell, neighbor}}, numbers::internal_face_boundary_id);
+        }
+      else
+        {
+          const auto         neighbor = cell->neighbor(face);
+          const unsigned int back     = cell->neighbor_of_neighbor(face);
+          if (neighbor->is_locally_owned() &&
+              std::make_pair(neighbor->index(), back) <
+                std::make_pair(cell->index(), face))
+            return;
+          edge_.reinit(cell, face, whole, neighbor, back, whole);
+          add_edge({{cell, neighbor}}, numbers::internal_face_boundary_id);
+        }
+    }
+
+    /** d/ds (m^ab nu_a tau_b t0) of a side at all points of the edge. */
+    std::vector<Vector3>
+    twisting_forces(const Iterator    &cell,
+                    const unsigned int side,
+                    const unsigned int field) const
+    {
+      const unsigned int   n = edge_.n_points();
+      std::vector<Vector3> twist(n), forces(n);
+      for (unsigned int q = 0; q < n; ++q)
+        {
+          const auto   &frame = edge_.frame(side, q);
+          const Vector3 nu    = outward(side, q);
+          const Vector3 tau   = tangents_[q];
+          twist[q] =
+            Stresses::moment(stresses_.nodal(cell, field),
+                             edge_.shapes(side),
+                             q,
+                             {{frame.a_cov[0] * nu, frame.a_cov[1] * nu}},
+                             {{frame.a_cov[0] * tau, frame.a_cov[1] * tau}}) /
+            frame.j0;
+        }
+      for (unsigned int q = 0; q < n; ++q)
+        for (unsigned int r = 0; r < n; ++r)
+          forces[q] += edge_rule_.weight(q) / edge_.JxW(q) *
+                       differentiation_(q, r) * twist[r];
+      return forces;
+    }
+
+    Vector3
+    outward(const unsigned int side, const unsigned int q) const
+    {
+      return (side == 0 ? 1. : -1.) * edge_.conormal(side, q);
+    }
+
+    /** Unit tangents along which the points follow each other. */
+    void
+    fill_tangents()
+    {
+      const unsigned int n     = edge_.n_points();
+      const Vector3      along = edge_.point(n - 1) - edge_.point(0);
+      tangents_.resize(n);
+      for (unsigned int q = 0; q < n; ++q)
+        {
+          const Vector3 tau =
+            cross_product_3d(edge_.frame(0, q).t0, edge_.conormal(0, q));
+          tangents_[q] = (tau * along > 0. ? 1. : -1.) * tau;
+        }
+    }
+
+    /** Add the edge that edge_ holds; @p id of a boundary, or internal. */
+    void
+    add_edge(const std::array<Iterator, 2> &cells, const types::boundary_id id)
+    {
+      const unsigned int n_sides = edge_.n_sides();
+      fill_tangents();
+      std::vector<std::vector<Vector3>> tractions(fields_.size(),
+                                                  std::vector<Vector3>(
+                                                    edge_.n_points()));
+      for (unsigned int f = 0; f < fields_.size(); ++f)
+        for (unsigned int side = 0; side < n_sides; ++side)
+          {
+            const auto twist = twisting_forces(cells[side], side, f);
+            for (unsigned int q = 0; q < edge_.n_points(); ++q)
+              {
+                const auto &frame = edge_.frame(side, q);
+                const auto  nu    = outward(side, q);
+                const auto  force =
+                  Stresses::forces(stresses_.nodal(cells[side], f),
+                                   edge_.shapes(side),
+                                   q);
+                for (unsigned int b = 0; b < 2; ++b)
+                  tractions[f][q] +=
+                    (frame.a_cov[b] * nu) / frame.j0 * force[b];
+                tractions[f][q] += twist[q];
+              }
+          }
+      for (unsigned int q = 0; q < edge_.n_points(); ++q)
+        {
+          for (unsigned int f = 0; f < fields_.size(); ++f)
+            vectors_[f] = tractions[f][q];
+          fill_hinge(q);
+          if (n_sides == 1)
+            apply_boundary_data(id, q);
+          add_edge_point(cells, id, q);
+        }
+    }
+
+    /** Jumps of m_nn and theta, or their values on the boundary. */
+    void
+    fill_hinge(const unsigned int q)
+    {
+      stiffness_ = 0.;
+      std::fill(moments_.begin(), moments_.end(), 0.);
+      std::fill(rotations_.begin(), rotations_.end(), 0.);
+      for (unsigned int side = 0; side < edge_.n_sides(); ++side)
+        {
+          hinge_.reinit(edge_, side, q, estimator_.section_);
+          stiffness_ += hinge_.stiffness / edge_.n_sides();
+          const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
+          for (unsigned int f = 0; f < fields_.size(); ++f)
+            for (unsigned int a = 0; a < hinge_.rotation.size(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const double u =
+                    (*fields_[f].displacement)(
+                      edge_.dof_indices()[edge_.dof(side, a, c)]) *
+                    hinge_.t0[c];
+                  rotations_[f] += sign * hinge_.rotation[a] * u;
+                  moments_[f] += sign * hinge_.moment[a] * u;
+                }
+        }
+    }
+
+    /** From the values on the boundary to residuals. */
+    void
+    apply_boundary_data(const types::boundary_id id, const unsigned int q)
+    {
+      const auto &loads = estimator_.loads_;
+      const auto  edge  = estimator_.boundary_conditions_.edges().find(id);
+      const bool  rotates =
+        (edge != estimator_.boundary_conditions_.edges().end() &&
+         edge->second.rotation != nullptr);
+      const auto point = edge_.point(q);
+      for (unsigned int f = 0; f < fields_.size(); ++f)
+        {
+          if (fields_[f].has_data)
+            {
+              const auto force  = loads.edge_forces().find(id);
+              const auto moment = loads.edge_moments().find(id);
+              if (force != loads.edge_forces().end())
+                vectors_[f] -= force->second(point);
+              if (moment != loads.edge_moments().end())
+                moments_[f] -= moment->second(point);
+              if (rotates)
+                rotations_[f] -= (*edge->second.rotation)(point);
+            }
+          vectors_[f] = estimator_.conditions_.free_part(id,
+                                                         edge_.frame(0, q).t0,
+                                                         edge_.conormal(0, q),
+                                                         vectors_[f]);
+          // What is prescribed leaves its dual quantity free.
+          (rotates ? moments_ : rotations_)[f] = 0.;
+        }
+    }
+
+    void
+    add_edge_point(const std::array<Iterator, 2> &cells,
+                   const types::boundary_id       id,
+                   const unsigned int             q)
+    {
+      const unsigned int n_sides = edge_.n_sides();
+      Tensor3            W;
+      double             h = 0.;
+      Vector3            t0;
+      for (unsigned int side = 0; side < n_sides; ++side)
+        {
+          W += stresses_.weight_of(cells[side]) / n_sides;
+          h += height(edge_.frame(side, q), outward(side, q)) / n_sides;
+          t0 += edge_.sigma(side, q) * edge_.frame(side, q).t0;
+        }
+      t0 /= t0.norm();
+      const double k       = wave_number(discretization_.degree()) / h;
+      const double W_n     = t0 * (W * t0);
+      const auto  &penalty = estimator_.penalty_;
+      const double eta   = n_sides == 2 ? penalty.interior(cells[0], cells[1]) :
+                                          2. * penalty.boundary(cells[0]);
+      const double share = edge_.JxW(q) / n_sides;
+      for (unsigned int side = 0; side < n_sides; ++side)
+        {
+          const auto add_part = [&](const Residual residual,
+                                    const double   factor,
+                                    const auto    &product) {
+            add(cells[side], residual, share * factor, product);
+          };
+          add_part(Residual::traction,
+                   NACRE_MUTABLE(estimator_traction, 0.25, 0.) * k,
+                   [&](const unsigned int f, const unsigned int g) {
+                     return vectors_[f] * (W * vectors_[g]);
+                   });
+          add_part(Residual::moment,
+                   NACRE_MUTABLE(estimator_moment, 0.25, 0.) * k * k * k * W_n,
+                   [&](const unsigned int f, const unsigned int g) {
+                     return moments_[f] * moments_[g];
+                   });
+          add_part(Residual::rotation,
+                   NACRE_MUTABLE(estimator_rotation, 1., 0.) * eta * stiffness_,
+                   [&](const unsigned int f, const unsigned int g) {
+                     return rotations_[f] * rotations_[g];
+                   });
+        }
+      (void)id;
+    }
+
+    const ErrorEstimator                              &estimator_;
+    const Discretization                              &discretization_;
+    const std::vector<Field>                          &fields_;
+    const Stresses                                     stresses_;
+    ShellCellValues                                    cell_values_;
+    ShellEdgeValues                                    edge_;
+    const Quadrature<1>                                edge_rule_;
+    const FullMatrix<double>                           differentiation_;
+    HingeSide                                          hinge_;
+    std::vector<std::pair<unsigned int, unsigned int>> pairs_;
+    std::vector<ErrorIndicators>                       products_;
+    /** @name At the current point, by field */
+    //@{
+    std::vector<Vector3> vectors_;
+    std::vector<double>  moments_;
+    std::vector<double>  rotations_;
+    //@}
+    double               stiffness_ = 0.;
+    std::vector<Vector3> tangents_;
+  };
+
+
+  ErrorEstimator::ErrorEstimator(const Discretization     &discretization,
+                                 const SectionLaw         &section,
+                                 const BoundaryConditions &boundary_conditions,
+                                 const Loads              &loads,
+                                 const EdgePenalty        &penalty,
+                                 const KinematicsOptions  &kinematics)
+    : discretization_(discretization)
+    , section_(section)
+    , boundary_conditions_(boundary_conditions)
+    , loads_(loads)
+    , penalty_(penalty)
+    , kinematics_(kinematics)
+    , conditions_(discretization, boundary_conditions)
+  {}
+
+  ErrorIndicators
+  ErrorEstimator::estimate(const Field &field) const
+  {
+    const std::vector<Field> fields = {field};
+    return std::move(Assembly(*this, fields).run().front());
+  }
+
+  std::array<ErrorIndicators, 3>
+  ErrorEstimator::estimate(const Field &u, const Field &z) const
+  {
+    const std::vector<Field> fields   = {u, z};
+    auto                     products = Assembly(*this, fields).run();
+    return {{products[0], products[2], products[1]}};
+  }
+} // namespace Nacre

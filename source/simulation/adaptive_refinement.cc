@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/text.h>
+#include <nacre/postprocess/error_estimator.h>
+#include <nacre/postprocess/error_norms.h>
+#include <nacre/postprocess/refinement_marking.h>
+#include <nacre/simulation/adaptive_refinement.h>
+
+#include <deal.II/base/timer.h>
+
+#include <cmath>
+#include <limits>
+
+namespace Nacre
+{
+  AdaptiveRefinement::AdaptiveRefinement()
+    : ParameterAcceptor("/Adaptive refinement")
+  {
+    add_parameter("Cycles",
+                  n_cycles_,
+                  "How often to refine the mesh of 'Study/Refinements' where "
+                  "the estimated error is large; each mesh is a row of the "
+                  "table. 0: no estimate. Units: none.",
+                  prm,
+                  Patterns::Integer(0, 100));
+    add_parameter("Estimator",
+                  estimator_,
+                  "residual: the energy norm of the error, (2 energy)^1/2, "
+                  "from residuals and jumps; goal: the error of one quantity, "
+                  "by the dual solution.",
+                  prm,
+                  Patterns::Selection("residual|goal"));
+    add_parameter("Goal",
+                  goal_name_,
+                  "Name of a quantity of 'Quantities': a displacement at a "
+                  "point, a reaction or the energy.");
+    add_parameter("Marking",
+                  marking_,
+                  "Doerfler: the fewest cells that hold the fraction of the "
+                  "estimate (of its square, for the energy norm); fixed "
+                  "fraction: that fraction of the cells.",
+                  prm,
+                  Patterns::Selection("Doerfler|fixed fraction"));
+    add_parameter("Fraction",
+                  fraction_,
+                  "Fraction that 'Marking' takes, above 0 and at most 1; with "
+                  "'fixed fraction' 1 refines all cells. Units: none.",
+                  prm,
+                  Patterns::Double());
+    add_parameter("Max dofs",
+                  max_dofs_,
+                  "A mesh that has more degrees of freedom isn't refined any "
+                  "more. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
+  }
+
+  void
+  AdaptiveRefinement::prepare(const ShellProblem         &problem,
+                              const QuantitiesOfInterest &quantities)
+  {
+    const std::string section = "Adaptive refinement/";
+    goal_index_.reset();
+    if (!is_on())
+      return;
+    AssertThrow(fraction_ > 0. && fraction_ <= 1.,
+                ExcMessage(section + "Fraction: found " +
+                           std::to_string(fraction_) +
+                           "; it must be above 0 and at most 1."));
+    AssertThrow(problem.is_linear(),
+                ExcMessage(section + "Cycles: only a linear analysis has an "
+                                     "error estimate; set it to 0, or "
+                                     "'Analysis/Type' to linear."));
+    AssertThrow(problem.element_name() != "triangle",
+                ExcMessage(section + "Cycles: meshes of triangles are refined "
+                                     "as a whole only; set it to 0, or choose "
+                                     "an element of quadrilaterals."));
+    if (estimator_ == "residual")
+      {
+        AssertThrow(goal_name_.empty(),
+                    ExcMessage(section + "Goal: '" + goal_name_ +
+                               "' has no effect unless 'Estimator = goal'."));
+        return;
+      }
+    std::vector<std::string> names;
+    for (const auto &quantity : quantities.quantities())
+      {
+        if (quantity.name == goal_name_)
+          {
+            goal_index_ = names.size();
+            goal_       = quantity.goal;
+            reference_  = quantity.reference;
+          }
+        names.push_back(quantity.name);
+      }
+    AssertThrow(
+      !goal_name_.empty() && goal_index_,
+      ExcMessage(
+        Text::unknown_name(section + "Goal", "quantity", goal_name_, names)));
+    AssertThrow(goal_.is_known(),
+                ExcMessage(section + "Goal: the quantity '" + goal_name_ +
+                           "' is not linear in the displacement, so that it "
+                           "has no dual solution; possible are a "
+                           "displacement at a point, a reaction of an edge "
+                           "and the energy."));
+  }
+
+  const GoalFunctional *
+  AdaptiveRefinement::goal() const
+  {
+    return goal_index_ ? &goal_ : nullptr;
+  }
+
+  ErrorEstimate
+  AdaptiveRefinement::estimate(const ShellProblem &problem) const
+  {
+    const MPI_Comm communicator = problem.discretization().communicator();
+    Timer          timer(communicator, true);
+    const auto     estimator = problem.make_error_estimator();
+    ErrorEstimate  result;
+    const ErrorEstimator::Field u{&problem.solution().displacement, true};
+    if (!goal_index_)
+      {
+        const auto indicators = estimator->estimate(u);
+        for (unsigned int k = 0; k < indicators.n_cells(); ++k)
+          result.indicators.push_back(indicators.of_cell(k));
+        result.value = std::sqrt(indicators.total(communicator));
+      }
+    else if (goal_.is_energy)
+      {
+        // U = l(u)/2: the error is half the square of the norm.
+        const auto indicators = estimator->estimate(u);
+        for (unsigned int k = 0; k < indicators.n_cells(); ++k)
+          result.indicators.push_back(0.5 * indicators.of_cell(k));
+        result.value = result.bound = 0.5 * indicators.total(communicator);
+      }
+    else
+      {
+        const ErrorEstimator::Field z{&problem.dual_solution(), false};
+        const auto [uu, zz, uz] = estimator->estimate(u, z);
+        for (unsigned int k = 0; k < uu.n_cells(); ++k)
+          {
+            result.indicators.push_back(
+              std::sqrt(uu.of_cell(k) * zz.of_cell(k)));
+            result.bound += result.indicators.back();
+          }
+        result.value = uz.total(communicator);
+        result.bound = Utilities::MPI::sum(result.bound, communicator);
+      }
+    timer.stop();
+    result.seconds = timer.cpu_time();
+    return result;
+  }
+
+  std::vector<ResultsTable::Quantity>
+  AdaptiveRefinement::columns(const ExactSolution &exact_solution) const
+  {
+    if (!is_on())
+      return {};
+    std::vector<ResultsTable::Quantity> columns = {{"estimate", {}, true}};
+    if (goal_index_)
+      columns.push_back({"bound", {}, true});
+    if (goal_index_ ? reference_.has_value() : exact_solution.is_known())
+      columns.push_back({"effectivity", {}, false});
+    return columns;
+  }
+
+  void
+  AdaptiveRefinement::add_to_row(const ShellProblem  &problem,
+                                 const ErrorEstimate &estimate,
+                                 ResultsTable::Row   &row) const
+  {
+    std::optional<double> error;
+    if (goal_index_)
+      {
+        if (reference_)
+          error = *reference_ - row.values[*goal_index_];
+      }
+    else if (problem.exact_solution().is_known())
+      error = compute_error_norms(problem.solution()).energy;
+
+    row.values.push_back(estimate.value);
+    if (goal_index_)
+      row.values.push_back(estimate.bound);
+    if (error)
+      row.values.push_back(*error == 0. ? std::numeric_limits<double>::max() :
+                                          estimate.value / *error);
+    row.references.resize(row.values.size());
+    row.estimate_s = estimate.seconds;
+  }
+
+  std::optional<std::vector<bool>>
+  AdaptiveRefinement::mark(const ErrorEstimate  &estimate,
+                           const Discretization &mesh) const
+  {
+    if (mesh.dof_handler().n_dofs() > max_dofs_)
+      return {};
+    return marking_ == "Doerfler" ?
+             RefinementMarking::bulk(estimate.indicators,
+                                     fraction_,
+                                     mesh.communicator()) :
+             RefinementMarking::fixed_fraction(
+               estimate.indicators,
+               fraction_,
+               mesh.triangulation().n_global_active_cells(),
+               mesh.communicator());
+  }
+} // namespace Nacre
