@@ -219,7 +219,7 @@ namespace Nacre
           vector->reinit(level.matrix.partitioner());
       }
     AssertThrow(is_definite,
-                ExcMultigridFailed("the matrix is not positive definite"));
+                ExcIterationFailed("the matrix is not positive definite"));
   }
 
 
@@ -264,7 +264,7 @@ namespace Nacre
     Level       &level   = *levels_[0];
     const double r_start = r.l2_norm();
     AssertThrow(std::isfinite(r_start),
-                ExcMultigridFailed("the residual is not a finite number"));
+                ExcIterationFailed("the residual is not a finite number"));
     Vector p(level.matrix.partitioner()), Ap(p), zero(p);
     double rz_old = 1.;
     for (unsigned int k = 0;; ++k)
@@ -273,14 +273,14 @@ namespace Nacre
         if (r_norm <= parameters_.tolerance * r_start)
           return k;
         AssertThrow(k < parameters_.max_iterations,
-                    ExcMultigridFailed("no convergence within " +
+                    ExcIterationFailed("no convergence within " +
                                        std::to_string(k) + " iterations"));
         // The patches' single precision has a range of its own.
         level.b.equ(1. / r_norm, r);
         cycle(0);
         const double rz = (r * level.x) * r_norm;
         AssertThrow(std::isfinite(rz) && rz > 0.,
-                    ExcMultigridFailed(
+                    ExcIterationFailed(
                       "the preconditioner is not positive definite"));
         p.sadd(k == 0 ? 0. : rz / rz_old, r_norm, level.x);
         rz_old = rz;
@@ -288,7 +288,7 @@ namespace Nacre
         level.matrix.residual(Ap, p, zero);
         const double pAp = -(p * Ap);
         AssertThrow(std::isfinite(pAp) && pAp > 0.,
-                    ExcMultigridFailed("the matrix is not positive definite"));
+                    ExcIterationFailed("the matrix is not positive definite"));
         x.add(rz / pAp, p);
         r.add(rz / pAp, Ap);
       }

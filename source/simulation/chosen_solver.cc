@@ -2,11 +2,13 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/log.h>
+#include <nacre/base/text.h>
 #include <nacre/simulation/chosen_solver.h>
 
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 namespace Nacre
 {
@@ -25,6 +27,14 @@ namespace Nacre
 
     constexpr double power_of_factors = 1.35;
     constexpr double power_of_memory  = 1.1;
+
+    std::string
+    reason(const ExcIterationFailed &failure)
+    {
+      std::ostringstream text;
+      failure.print_info(text);
+      return Text::trim(text.str());
+    }
 
     const std::array<MeasuredCosts, 4> costs = {{{4.0, 0.1, 1.1, 2.0, 1.0},
                                                  {6.2, 0.2, 2.0, 1.8, 1.6},
@@ -113,7 +123,7 @@ namespace Nacre
         }
       catch (const ExcIterationFailed &failure)
         {
-          fall_back(failure.what());
+          fall_back(reason(failure));
         }
   }
 
@@ -128,7 +138,7 @@ namespace Nacre
         }
       catch (const ExcIterationFailed &failure)
         {
-          fall_back(failure.what());
+          fall_back(reason(failure));
         }
     return direct_.solve(x, b);
   }
@@ -137,7 +147,7 @@ namespace Nacre
   ChosenSolver::fall_back(const std::string &reason)
   {
     log_.warning("multigrid failed: " + reason +
-                 " The direct solver takes over.");
+                 "; the direct solver takes over.");
     multigrid_.reset();
     direct_.prepare(*system_);
   }

@@ -4,6 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
+#include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/chosen_solver.h>
@@ -122,6 +123,11 @@ namespace Nacre
                 ExcMessage("Discretization/Edge form: co-rotational kinematics "
                            "has the hinge form only; found '" +
                            edge_form_name_ + "'."));
+    AssertThrow(solver_parameters_->solver != "multigrid" ||
+                  path_parameters_.type != AnalysisType::dynamic,
+                ExcMessage("Linear solver/Solver: 'multigrid' doesn't know the "
+                           "inertia of a dynamic analysis; choose auto or "
+                           "direct."));
     if (is_linear())
       {
         AssertThrow(kinematics_name_ == "linear",
@@ -352,7 +358,37 @@ namespace Nacre
   void
   ShellProblem::make_solver(Log &log)
   {
+    const auto &chosen = solver_parameters_->solver;
+    const bool  can_coarsen =
+      MultigridSolver::has_coarser_mesh(*discretization_);
+    if (chosen == "multigrid" && !can_coarsen)
+      log.warning(
+        "Linear solver/Solver: the mesh is not refined from a coarser "
+        "one, as multigrid needs it; the direct solver is taken.");
+    SolverTask task;
+    task.n_dofs             = discretization_->dof_handler().n_dofs();
+    task.degree             = discretization_->degree();
+    task.n_right_hand_sides = (goal_ != nullptr && !goal_->is_energy) ? 2 : 1;
+    task.n_levels = discretization_->triangulation().n_global_levels() - 1;
+    task.memory   = free_memory(communicator_);
+
     ChosenSolver::Factory make_multigrid;
+    if (can_coarsen && path_parameters_.type != AnalysisType::dynamic &&
+        (chosen == "multigrid" ||
+         (chosen == "auto" && prefers_multigrid(task))))
+      make_multigrid = [this]() {
+        MultigridSolver::Parameters parameters;
+        parameters.max_iterations = solver_parameters_->max_iterations;
+        return std::make_unique<MultigridSolver>(
+          *discretization_,
+          ShellDescription{midsurface_,
+                           *section_,
+                           boundary_conditions_,
+                           loads_,
+                           kinematics_options(),
+                           case_.eta},
+          parameters);
+      };
     solver_ =
       std::make_unique<ChosenSolver>(communicator_, make_multigrid, log);
   }
@@ -386,6 +422,11 @@ namespace Nacre
                          discretization_->locally_relevant_dofs(),
                          communicator_);
     displacement_ = solution;
+    if (goal_ != nullptr)
+      {
+        solve_dual(*solver_, constraints);
+        lap(times_.solve);
+      }
   }
 
   void
@@ -408,18 +449,6 @@ namespace Nacre
              << accuracy.correction
              << " of their size; cells much longer than wide do that.";
         log.warning(text.str());
-      }
-  }
-
-    constraints.distribute(solution);
-    displacement_.reinit(owned,
-                         discretization_->locally_relevant_dofs(),
-                         communicator_);
-    displacement_ = solution;
-    if (goal_ != nullptr)
-      {
-        solve_dual(*solver_, constraints);
-        lap(times_.solve);
       }
   }
 

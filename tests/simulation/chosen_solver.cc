@@ -54,7 +54,7 @@ private:
   call()
   {
     if (good_calls_-- == 0)
-      throw ExcIterationFailed("stagnation after 7 iterations.");
+      AssertThrow(false, ExcIterationFailed("stagnation after 7 iterations"));
   }
 
   unsigned int good_calls_;

@@ -8,8 +8,6 @@
 #include <nacre/forms/kinematics_options.h>
 #include <nacre/solvers/linear_solver.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
@@ -24,11 +22,6 @@ namespace Nacre
   class Loads;
   class Midsurface;
   class SectionLaw;
-
-  /** Why the iteration of a MultigridSolver can't go on. */
-  DeclException1(ExcMultigridFailed,
-                 std::string,
-                 << "The multigrid solver gave up: " << arg1 << ".");
 
   /** What describes a shell on any of its meshes; all must stay alive. */
   struct ShellDescription
@@ -91,14 +84,14 @@ namespace Nacre
 
     /**
      * Assemble the coarse matrices at the displacement of @p system, and invert
-     * the patches. Throws ExcMultigridFailed if a patch is not positive
+     * the patches. Throws ExcIterationFailed if a patch is not positive
      * definite.
      */
     void
     prepare(const LinearSystem &system) override;
 
     /**
-     * Throws ExcMultigridFailed if the iteration doesn't converge, or if
+     * Throws ExcIterationFailed if the iteration doesn't converge, or if
      * the matrix turns out not to be positive definite.
      */
     SolveAccuracy

@@ -6,8 +6,10 @@
 
 #include <nacre/base/types.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <optional>
-#include <stdexcept>
+#include <string>
 
 namespace dealii
 {
@@ -54,14 +56,10 @@ namespace Nacre
   };
 
   /**
-   * An iterative solver could not solve a system: the iteration stagnates, or
-   * the matrix is not positive definite. what() says which. Thrown on all
-   * ranks.
+   * An iterative solver could not solve a system, and why: the iteration
+   * stagnates, or the matrix is not positive definite. Thrown on all ranks.
    */
-  struct ExcIterationFailed : public std::runtime_error
-  {
-    using std::runtime_error::runtime_error;
-  };
+  DeclException1(ExcIterationFailed, std::string, << arg1);
 
   /** A solver of symmetric linear systems for any number of right-hand sides.
    */
