@@ -2,7 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 // DirectSolver: a known solution, the count of negative pivots against dense
-// eigenvalues, reuse of the object, singular matrices and undefined numbers.
+// eigenvalues, reuse of the object and of its analysis, (nearly) singular and
+// unsymmetric matrices, ranks without rows, and undefined numbers.
 
 #include <nacre/solvers/direct_solver.h>
 
@@ -199,7 +200,7 @@ test_negative_pivots()
       solver.factorize(problem.matrix);
       report("negative pivots",
              solver.n_negative_pivots() == problem.n_negative_eigenvalues(),
-             solver.n_negative_pivots());
+             *solver.n_negative_pivots());
       double       backward_error;
       const double error = problem.error(solver, backward_error);
       report("indefinite solution", error < 1e-9, error);
@@ -287,6 +288,148 @@ test_diagonal()
   report("diagonal matrix", solver.n_negative_pivots() == 143);
 }
 
+/** Eigenvalues next to zero, of both signs, that factors can tell from it. */
+void
+test_nearly_singular()
+{
+  Problem      problem(12, 2);
+  DirectSolver solver(comm);
+  for (const double shift : {-1e-8, 1e-8})
+    {
+      problem.assemble(shift, false);
+      solver.factorize(problem.matrix);
+      report("nearly singular",
+             solver.n_negative_pivots() == (shift > 0. ? 3 : 0),
+             *solver.n_negative_pivots());
+      double       backward_error;
+      const double error = problem.error(solver, backward_error);
+      report("nearly singular, solution", error < 1e-4, error);
+      report("nearly singular, backward error",
+             backward_error < 2e-15,
+             backward_error);
+    }
+  problem.assemble(-1e-17, false);
+  expect_exception("too nearly singular", "matrix is singular", [&]() {
+    solver.factorize(problem.matrix);
+  });
+}
+
+/** One analysis a pattern; many right-hand sides with one factorisation. */
+void
+test_reuse()
+{
+  Problem      problem(12, 2);
+  DirectSolver solver(comm);
+  problem.assemble(-2., true);
+  const double memory = solver.factor_memory(problem.matrix);
+  report("memory of factors", memory > 5e-4 && memory < 0.02, memory);
+  for (const double shift : {-2., -1., 0.1})
+    {
+      problem.assemble(shift, true);
+      solver.factorize(problem.matrix);
+      double error = 0., backward_error;
+      for (unsigned int k = 0; k < 5; ++k)
+        error = std::max(error, problem.error(solver, backward_error));
+      report("many right-hand sides", error < 1e-10, error);
+    }
+  report("one analysis", solver.n_analyses() == 1, solver.n_analyses());
+
+  // From the second indefinite matrix on, L D L^T comes first.
+  for (const double shift : {300., 310., 320.})
+    {
+      problem.assemble(shift, true);
+      solver.factorize(problem.matrix);
+      report("indefinite", *solver.n_negative_pivots() > 0);
+    }
+  report("two analyses", solver.n_analyses() <= 2, solver.n_analyses());
+  problem.assemble(-1., false);
+  solver.factorize(problem.matrix);
+  const unsigned int n_analyses = solver.n_analyses();
+  solver.factorize(problem.matrix);
+  report("another pattern",
+         n_analyses <= 3 && solver.n_analyses() == n_analyses &&
+           solver.n_negative_pivots() == 0,
+         n_analyses);
+}
+
+/** Tridiagonal with rows on the last rank only. */
+class Tridiagonal
+{
+public:
+  explicit Tridiagonal(const unsigned int n)
+    : owned(rows(n))
+    , matrix(owned, owned, comm, 3)
+  {}
+
+  static IndexSet
+  rows(const unsigned int n)
+  {
+    IndexSet result(n);
+    if (Utilities::MPI::this_mpi_process(comm) + 1 ==
+        Utilities::MPI::n_mpi_processes(comm))
+      result.add_range(0, n);
+    return result;
+  }
+
+  /** a_ij is 2 on the diagonal and @p upper and @p lower beside it. */
+  void
+  fill(const double upper, const double lower, const bool stores_zeros)
+  {
+    for (const auto i : owned)
+      {
+        matrix.set(i, i, 2.);
+        if (i + 1 < owned.size() && (upper != 0. || stores_zeros))
+          matrix.set(i, i + 1, upper);
+        if (i > 0 && (lower != 0. || stores_zeros))
+          matrix.set(i, i - 1, lower);
+      }
+    matrix.compress(VectorOperation::insert);
+  }
+
+  IndexSet                       owned;
+  TrilinosWrappers::SparseMatrix matrix;
+};
+
+void
+test_empty_ranks()
+{
+  const unsigned int n = 300;
+  DirectSolver       solver(comm);
+  for (const double coupling : {-1., 3.})
+    {
+      Tridiagonal problem(n);
+      problem.fill(coupling, coupling, true);
+      solver.factorize(problem.matrix);
+      // Eigenvalues 2 + 2 c cos(k pi / (n + 1)).
+      unsigned int n_negative = 0;
+      for (unsigned int k = 1; k <= n; ++k)
+        n_negative +=
+          1. + coupling * std::cos(k * numbers::PI / (n + 1)) < 0. ? 1 : 0;
+      report("ranks without rows", solver.n_negative_pivots() == n_negative);
+      TrilinosVector x(problem.owned, comm), b(x), exact(x);
+      for (const auto i : problem.owned)
+        exact[i] = std::sin(1. * i);
+      exact.compress(VectorOperation::insert);
+      problem.matrix.vmult(b, exact);
+      solver.solve(x, b);
+      x -= exact;
+      report("ranks without rows, solution",
+             x.linfty_norm() < 1e-10,
+             x.linfty_norm());
+    }
+
+  // Round-off may leave a zero on one side of the diagonal only.
+  Tridiagonal one_sided(n);
+  one_sided.fill(0., 1e-30, true);
+  solver.factorize(one_sided.matrix);
+  report("zeros on one side", solver.n_negative_pivots() == 0);
+  Tridiagonal triangular(n);
+  triangular.fill(0., 1e-30, false);
+  expect_exception("unsymmetric pattern", "symmetric matrices only", [&]() {
+    solver.factorize(triangular.matrix);
+  });
+}
+
 int
 main(int argc, char *argv[])
 {
@@ -296,4 +439,7 @@ main(int argc, char *argv[])
   test_exceptions();
   test_zero_diagonal();
   test_diagonal();
+  test_nearly_singular();
+  test_reuse();
+  test_empty_ranks();
 }

@@ -13,12 +13,13 @@
 namespace Nacre
 {
   /**
-   * Sparse L D L^T of a symmetric matrix by MUMPS (SYM = 2) on any number of
-   * ranks, without pivoting unless a pivot (nearly) vanishes by accident, as
-   * it may in indefinite matrices; then D gets 2x2 blocks. Only the matrix'
-   * upper triangle is read. The factors are kept for any number of right-hand
-   * sides. The number of negative pivots (negative eigenvalues) tells whether
-   * the matrix is positive definite.
+   * Sparse factors of a symmetric matrix on any number of ranks: supernodal
+   * Cholesky by CHOLMOD on one rank; L D L^T without pivoting by MUMPS on
+   * several, and where the matrix is not positive definite; with pivoting,
+   * where pivots (nearly) vanish by accident, as they may in indefinite
+   * matrices. The factors are kept for any number of right-hand sides. The
+   * number of negative pivots (negative eigenvalues) tells whether the matrix
+   * is positive definite.
    */
   class DirectSolver : public LinearSolver
   {
@@ -58,6 +59,17 @@ namespace Nacre
     SolveAccuracy
     solve(TrilinosWrappers::MPI::Vector       &x,
           const TrilinosWrappers::MPI::Vector &b) override;
+
+    /**
+     * Analyse @p matrix, as factorize() does and will not do again, and
+     * estimate the memory (GB) that its factors take on all ranks together.
+     */
+    double
+    factor_memory(const TrilinosWrappers::SparseMatrix &matrix);
+
+    /** Number of analyses so far. */
+    unsigned int
+    n_analyses() const;
 
   private:
     struct Implementation;

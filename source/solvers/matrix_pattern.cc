@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/solvers/matrix_pattern.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/trilinos_index_access.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_Import.h>
+#include <Epetra_IntVector.h>
+#include <amd.h>
+#include <metis.h>
+
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** A row of the matrix on this rank. */
+    struct Row
+    {
+      Row(const Epetra_CrsMatrix &A, const int i)
+      {
+        A.ExtractMyRowView(i, length, values, columns);
+      }
+
+      int     length;
+      double *values;
+      int    *columns;
+    };
+
+
+    /** A pseudo-random number: Steele, Lea, Flood (2014), SplitMix64. */
+    std::uint64_t
+    scatter_bits(const std::uint64_t number)
+    {
+      std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
+      z               = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+      z               = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+      return z ^ (z >> 31);
+    }
+
+
+    /** Pieces of all ranks, one after the other, on rank 0. */
+    std::vector<int>
+    gather_on_host(const std::vector<int> &piece, const MPI_Comm comm)
+    {
+      const auto counts = Utilities::MPI::all_gather(comm, int(piece.size()));
+      std::vector<int> offsets(1, 0);
+      for (const int count : counts)
+        {
+          AssertThrow(offsets.back() <= std::numeric_limits<int>::max() - count,
+                      ExcMessage("The linear system is too large for the "
+                                 "direct solver."));
+          offsets.push_back(offsets.back() + count);
+        }
+      const bool       is_host = Utilities::MPI::this_mpi_process(comm) == 0;
+      std::vector<int> all(is_host ? offsets.back() : 0);
+      const int        ierr = MPI_Gatherv(piece.data(),
+                                   piece.size(),
+                                   MPI_INT,
+                                   all.data(),
+                                   counts.data(),
+                                   offsets.data(),
+                                   MPI_INT,
+                                   0,
+                                   comm);
+      AssertThrowMPI(ierr);
+      return all;
+    }
+
+
+    /** A graph in compressed rows: neighbours of v are at start[v] ... */
+    struct Graph
+    {
+      std::vector<idx_t> start = {0};
+      std::vector<idx_t> neighbours;
+      /** Unknowns of each vertex. */
+      std::vector<idx_t> weights;
+    };
+
+
+    /**
+     * The vertices in the order of elimination: nested dissection by METIS
+     * (Karypis, Kumar: SIAM J. Sci. Comput. 20 (1998) 359-392), or, for small
+     * graphs, approximate minimum degree (Amestoy, Davis, Duff: ACM Trans.
+     * Math. Softw. 30 (2004) 381-388). Empty if that failed.
+     */
+    std::vector<idx_t>
+    eliminate(Graph &graph, const bool is_small)
+    {
+      idx_t              n = graph.weights.size();
+      std::vector<idx_t> order(n), place(n);
+      if (n == 0)
+        return order;
+      bool is_done;
+      if (is_small)
+        is_done = amd_order(n,
+                            graph.start.data(),
+                            graph.neighbours.data(),
+                            order.data(),
+                            nullptr,
+                            nullptr) >= AMD_OK;
+      else
+        {
+          idx_t options[METIS_NOPTIONS];
+          METIS_SetDefaultOptions(options);
+          options[METIS_OPTION_COMPRESS] = 0; // it is
+          is_done                        = METIS_NodeND(&n,
+                                 graph.start.data(),
+                                 graph.neighbours.data(),
+                                 graph.weights.data(),
+                                 options,
+                                 order.data(),
+                                 place.data()) == METIS_OK;
+        }
+      if (!is_done)
+        order.clear();
+      return order;
+    }
+
+
+    /**
+     * The representative of each row of this rank, the first row with the same
+     * neighbours (both count as neighbours of themselves), as global indices.
+     */
+    std::vector<int>
+    representatives(const Epetra_CrsMatrix           &A,
+                    const std::vector<std::uint64_t> &rows)
+    {
+      std::vector<int>                       result(rows.size());
+      std::unordered_map<std::uint64_t, int> first;
+      first.reserve(rows.size() / 3 + 1);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        result[i] =
+          (i > 0 && rows[i] == rows[i - 1]) ?
+            result[i - 1] :
+            first
+              .emplace(rows[i], TrilinosWrappers::global_index(A.RowMap(), i))
+              .first->second;
+      return result;
+    }
+
+
+    /**
+     * Of each representative of this rank: itself, the number of representatives
+     * next to it, and these.
+     */
+    std::vector<int>
+    neighbourhoods(const Epetra_CrsMatrix &A, const std::vector<int> &own)
+    {
+      Epetra_IntVector of_rows(Copy, A.RowMap(), const_cast<int *>(own.data()));
+      Epetra_IntVector of_columns(A.ColMap());
+      const Epetra_IntVector *column_vertices = &of_rows;
+      if (A.Importer() != nullptr)
+        {
+          const int ierr = of_columns.Import(of_rows, *A.Importer(), Insert);
+          AssertThrow(ierr == 0, ExcTrilinosError(ierr));
+          column_vertices = &of_columns;
+        }
+      std::unordered_map<int, int> last_seen;
+      std::vector<int>             number(A.NumMyCols());
+      for (int j = 0; j < A.NumMyCols(); ++j)
+        number[j] = last_seen.emplace((*column_vertices)[j], last_seen.size())
+                      .first->second;
+      std::vector<int> mark(last_seen.size(), -1);
+
+      std::vector<int> result;
+      for (std::size_t i = 0; i < own.size(); ++i)
+        if (own[i] == TrilinosWrappers::global_index(A.RowMap(), i))
+          {
+            const Row         row(A, i);
+            const std::size_t head = result.size();
+            result.push_back(own[i]);
+            result.push_back(0);
+            for (int k = 0; k < row.length; ++k)
+              {
+                const int j = row.columns[k];
+                if (mark[number[j]] != static_cast<int>(i) &&
+                    (*column_vertices)[j] != own[i])
+                  {
+                    mark[number[j]] = i;
+                    result.push_back((*column_vertices)[j]);
+                  }
+              }
+            result[head + 1] = result.size() - head - 2;
+          }
+      return result;
+    }
+
+
+    /**
+     * @param representative of each unknown
+     * @param pieces neighbourhoods() of all ranks
+     * @param[out] vertex of each unknown that is a representative
+     */
+    Graph
+    collect_graph(const std::vector<int> &representative,
+                  const std::vector<int> &pieces,
+                  std::vector<int>       &vertex)
+    {
+      Graph graph;
+      vertex.assign(representative.size(), 0);
+      for (std::size_t k = 0; k < pieces.size(); k += 2 + pieces[k + 1])
+        {
+          vertex[pieces[k]] = graph.weights.size();
+          graph.weights.push_back(0);
+        }
+      for (const int r : representative)
+        ++graph.weights[vertex[r]];
+      graph.start.reserve(graph.weights.size() + 1);
+      graph.neighbours.reserve(1 + pieces.size() - 2 * graph.weights.size());
+      for (std::size_t k = 0; k < pieces.size(); k += 2 + pieces[k + 1])
+        {
+          for (int l = 0; l < pieces[k + 1]; ++l)
+            graph.neighbours.push_back(vertex[pieces[k + 2 + l]]);
+          graph.start.push_back(graph.neighbours.size());
+        }
+      return graph;
+    }
+  } // namespace
+
+
+  void
+  check_finite(const bool         is_finite,
+               const std::string &what,
+               const MPI_Comm     communicator)
+  {
+    AssertThrow(Utilities::MPI::min(is_finite ? 1 : 0, communicator) == 1,
+                ExcMessage("The " + what +
+                           " of the linear system holds an infinite or "
+                           "undefined (NaN) number. Check the loads, the "
+                           "material and the surface's expressions."));
+  }
+
+
+  MatrixPattern::MatrixPattern(const Matrix &matrix)
+  {
+    const Epetra_CrsMatrix    &A = matrix.trilinos_matrix();
+    std::vector<std::uint64_t> number(A.NumMyCols());
+    std::vector<int>           id(A.NumMyCols());
+    for (int j = 0; j < A.NumMyCols(); ++j)
+      {
+        id[j]     = TrilinosWrappers::global_index(A.ColMap(), j);
+        number[j] = scatter_bits(id[j]);
+      }
+
+    rows_.resize(A.NumMyRows());
+    stored_.resize(A.NumMyRows());
+    bool        is_finite = true;
+    std::size_t n_stored  = 0;
+    // Of entries below minus above the diagonal: sums of products of the row's
+    // and the column's number, which vanish for symmetric patterns.
+    std::uint64_t skew = 0, skew_stored = 0;
+    for (int i = 0; i < A.NumMyRows(); ++i)
+      {
+        const Row     row(A, i);
+        const int     i_global = TrilinosWrappers::global_index(A.RowMap(), i);
+        std::uint64_t kept[2] = {0, 0}, stored[2] = {0, 0};
+        for (int k = 0; k < row.length; ++k)
+          {
+            const int j     = row.columns[k];
+            is_finite       = is_finite && std::isfinite(row.values[k]);
+            const int upper = id[j] > i_global;
+            if (id[j] == i_global)
+              continue;
+            n_stored += upper;
+            stored[upper] += number[j];
+            if (row.values[k] != 0.)
+              {
+                n_upper_ += upper;
+                kept[upper] += number[j];
+              }
+          }
+        const std::uint64_t own = scatter_bits(i_global);
+        rows_[i]                = kept[0] + kept[1] + own;
+        stored_[i]              = stored[0] + stored[1] + own;
+        skew += own * (kept[0] - kept[1]);
+        skew_stored += own * (stored[0] - stored[1]);
+      }
+    const MPI_Comm comm = matrix.get_mpi_communicator();
+    check_finite(is_finite, "matrix", comm);
+    std::uint64_t sums[2] = {skew, skew_stored};
+    Utilities::MPI::sum(ArrayView<const std::uint64_t>(sums, 2),
+                        comm,
+                        ArrayView<std::uint64_t>(sums, 2));
+    AssertThrow(sums[1] == 0,
+                ExcMessage("The direct solver takes symmetric matrices only: "
+                           "an entry is stored, the mirrored one is not."));
+    keeps_zeros_ = (sums[0] != 0);
+    if (keeps_zeros_)
+      {
+        rows_    = stored_;
+        n_upper_ = n_stored;
+      }
+    n_upper_ += A.NumMyRows();
+  }
+
+
+  std::vector<int>
+  MatrixPattern::fill_reducing_order(const Matrix &matrix) const
+  {
+    const Epetra_CrsMatrix &A    = matrix.trilinos_matrix();
+    const MPI_Comm          comm = matrix.get_mpi_communicator();
+    const bool is_host           = Utilities::MPI::this_mpi_process(comm) == 0;
+
+    const auto own            = representatives(A, stored_);
+    const auto pieces         = gather_on_host(neighbourhoods(A, own), comm);
+    const auto representative = gather_on_host(own, comm);
+
+    // Minimum degree is quicker and gives no more fill for small graphs, but
+    // leaves less to do in parallel.
+    std::vector<int> vertex, place;
+    bool             is_ordered = true;
+    if (is_host)
+      {
+        Graph      graph = collect_graph(representative, pieces, vertex);
+        const bool is_small =
+          graph.weights.size() <
+          (Utilities::MPI::n_mpi_processes(comm) == 1 ? 3000 : 500);
+        const auto order = eliminate(graph, is_small);
+        is_ordered       = (order.size() == graph.weights.size());
+
+        std::vector<int> next(order.size());
+        int              n_before = 0;
+        for (const int v : order)
+          {
+            next[v] = n_before;
+            n_before += graph.weights[v];
+          }
+        place.resize(representative.size());
+        if (is_ordered)
+          for (std::size_t i = 0; i < place.size(); ++i)
+            place[i] = next[vertex[representative[i]]]++;
+      }
+    AssertThrow(Utilities::MPI::min(int(is_ordered), comm) == 1,
+                ExcMessage("METIS could not order the unknowns of the linear "
+                           "system (too little memory?)."));
+    return place;
+  }
+} // namespace Nacre
