@@ -230,7 +230,7 @@ namespace Nacre
       line << ", " << std::fixed << std::setprecision(2)
            << row.setup_s + row.assembly_s + row.solve_s << " s";
     const double imbalance = cell_imbalance(problem_.discretization());
-    if (adaptive_.is_on() && imbalance > 1.)
+    if (adaptive_.is_on() && Utilities::MPI::n_mpi_processes(communicator_) > 1)
       line << ", cells of a rank max/mean " << std::fixed
            << std::setprecision(3) << imbalance;
     if (!row.values.empty())
