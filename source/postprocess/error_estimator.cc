@@ -4,12 +4,11 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/mutation.h>
 #include <nacre/forms/hinge_form.h>
-#include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/error_estimator.h>
+#include <nacre/postprocess/error_weight.h>
+#include <nacre/postprocess/stress_polynomials.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <cmath>
 
@@ -20,29 +19,6 @@ namespace Nacre
     using Vector3  = Tensor<1, spacedim>;
     using Tensor3  = Tensor<2, spacedim>;
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
-
-    /**
-     * Rows [point][node] that give the nodal values of the polynomial of the
-     * element that is closest to values at the points: collocation where there
-     * are as many points as nodes.
-     */
-    FullMatrix<double>
-    make_projection(const ShapeTable &shapes, const Quadrature<dim> &quadrature)
-    {
-      const unsigned int n = shapes.n_nodes();
-      FullMatrix<double> values(n, quadrature.size()), normal(n, n);
-      FullMatrix<double> projection(n, quadrature.size());
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            values(a, q) = quadrature.weight(q) * shapes.value(q, a);
-            for (unsigned int b = 0; b < n; ++b)
-              normal(a, b) += values(a, q) * shapes.value(q, b);
-          }
-      normal.gauss_jordan();
-      normal.mmult(projection, values);
-      return projection;
-    }
 
     /** Derivatives of Lagrange polynomials through points: [point][node]. */
     FullMatrix<double>
@@ -63,13 +39,6 @@ namespace Nacre
                 matrix(i, j) += product;
               }
       return matrix;
-    }
-
-    /** Wave number on the reference cell: p half waves along an edge. */
-    double
-    wave_number(const unsigned int degree)
-    {
-      return numbers::PI * degree;
     }
 
     /** Height of the cell over its edge of the conormal @p n (length). */
@@ -108,231 +77,6 @@ namespace Nacre
     return Utilities::MPI::sum(sum, communicator);
   }
 
-  Tensor<2, spacedim>
-  ErrorEstimator::weight(const SurfaceFrame<>   &frame,
-                         const SectionStiffness &stiffness,
-                         const unsigned int      degree)
-  {
-    const Vector3 e1 = frame.a_cov[0] / frame.a_cov[0].norm();
-    const std::array<Vector3, spacedim> basis = {
-      {e1, cross_product_3d(frame.t0, e1), frame.t0}};
-    constexpr unsigned int n_directions = 12;
-
-    Tensor3 sum;
-    for (unsigned int d = 0; d < n_directions; ++d)
-      {
-        // The wave u = i v_t cos + v_n t0 with the covariant components k_a.
-        const double phi = numbers::PI * (d + 0.5) / n_directions;
-        const double k[] = {wave_number(degree) * std::cos(phi),
-                            wave_number(degree) * std::sin(phi)};
-        std::array<Voigt<>, spacedim> eps;
-        for (unsigned int c = 0; c < 2; ++c)
-          {
-            const double v[] = {basis[c] * frame.a_cov[0],
-                                basis[c] * frame.a_cov[1]};
-            eps[c][0]        = k[0] * v[0];
-            eps[c][1]        = k[1] * v[1];
-            eps[c][2]        = k[0] * v[1] + k[1] * v[0];
-          }
-        for (unsigned int v = 0; v < 3; ++v)
-          eps[2][v] =
-            -(v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0);
-        Voigt<> rho;
-        rho[0] = k[0] * k[0];
-        rho[1] = k[1] * k[1];
-        rho[2] = 2. * k[0] * k[1];
-
-        Tensor3 symbol;
-        for (unsigned int c = 0; c < spacedim; ++c)
-          for (unsigned int e = 0; e < spacedim; ++e)
-            symbol[c][e] = eps[c] * (stiffness.membrane * eps[e]);
-        symbol[2][2] += rho * (stiffness.bending * rho);
-        sum += invert(symbol) / n_directions;
-      }
-    // Waves along k and -k: what couples tangential and normal cancels.
-    Tensor3 weight = sum[2][2] * outer_product(frame.t0, frame.t0);
-    for (unsigned int c = 0; c < 2; ++c)
-      for (unsigned int e = 0; e < 2; ++e)
-        weight += sum[c][e] * outer_product(basis[c], basis[e]);
-    return weight;
-  }
-
-
-  /**
-   * The stress resultants of one or two fields as polynomials of the reference
-   * cell, on this rank's cells and ghosts: the vectors
-   *   N^b  = sqrt a (n^ab a_a + m^cd Gamma^b_cd t0)    b = 1, 2
-   *   M^ab = sqrt a m^ab t0                            ab = 11, 22, 12
-   * of which sqrt a f^b = N^b + M^ab,a.
-   */
-  class ErrorEstimator::Stresses
-  {
-  public:
-    static constexpr unsigned int n_vectors = 5;
-
-    Stresses(const ErrorEstimator &estimator, const std::vector<Field> &fields)
-      : discretization_(estimator.discretization_)
-      , section_(estimator.section_)
-      , fields_(fields)
-      , quadrature_(discretization_.element().full_quadrature())
-      , values_(discretization_,
-                quadrature_,
-                estimator.kinematics_.membrane_strain == MembraneStrain::tied)
-      , projection_(make_projection(values_.shapes(), quadrature_))
-      , u_(values_.n_dofs())
-      , weights_(discretization_.triangulation().n_active_cells())
-      , nodal_(weights_.size() * fields.size() * n_vectors * projection_.m())
-    {
-      ShellCellValues centre(discretization_,
-                             Quadrature<dim>(discretization_.element()
-                                               .reference_cell()
-                                               .template barycenter<dim>()),
-                             false);
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (!cell->is_artificial())
-          {
-            centre.reinit_frames(cell);
-            weights_[cell->active_cell_index()] =
-              weight(centre.frame(0),
-                     section_.stiffness(centre.frame(0), centre.point(0)),
-                     discretization_.degree());
-            fill(cell);
-          }
-    }
-
-    /** W of a cell. */
-    const Tensor3 &
-    weight_of(const Iterator &cell) const
-    {
-      return weights_[cell->active_cell_index()];
-    }
-
-    /** Nodal values [vector][node] of a field on a cell. */
-    const Vector3 *
-    nodal(const Iterator &cell, const unsigned int field) const
-    {
-      return &nodal_[(cell->active_cell_index() * fields_.size() + field) *
-                     n_vectors * projection_.m()];
-    }
-
-    /** sqrt a f^b at a point of a table. */
-    static std::array<Vector3, 2>
-    forces(const Vector3 *nodal, const ShapeTable &shapes, const unsigned int q)
-    {
-      std::array<Vector3, 2> f;
-      const unsigned int     n = shapes.n_nodes();
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          const auto &dN = shapes.gradient(q, a);
-          f[0] += shapes.value(q, a) * nodal[a] + dN[0] * nodal[2 * n + a] +
-                  dN[1] * nodal[4 * n + a];
-          f[1] += shapes.value(q, a) * nodal[n + a] + dN[1] * nodal[3 * n + a] +
-                  dN[0] * nodal[4 * n + a];
-        }
-      return f;
-    }
-
-    /** Divergence (sqrt a f^b),b. */
-    static Vector3
-    divergence(const Vector3     *nodal,
-               const ShapeTable  &shapes,
-               const unsigned int q)
-    {
-      Vector3            sum;
-      const unsigned int n = shapes.n_nodes();
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          const auto &dN  = shapes.gradient(q, a);
-          const auto &ddN = shapes.hessian(q, a);
-          sum += dN[0] * nodal[a] + dN[1] * nodal[n + a] +
-                 ddN[0] * nodal[2 * n + a] + ddN[1] * nodal[3 * n + a] +
-                 2. * ddN[2] * nodal[4 * n + a];
-        }
-      return sum;
-    }
-
-    /** sqrt a m^ab x_a y_b t0 for covariant components x, y. */
-    static Vector3
-    moment(const Vector3               *nodal,
-           const ShapeTable            &shapes,
-           const unsigned int           q,
-           const std::array<double, 2> &x,
-           const std::array<double, 2> &y)
-    {
-      Vector3            sum;
-      const unsigned int n = shapes.n_nodes();
-      for (unsigned int a = 0; a < n; ++a)
-        sum +=
-          shapes.value(q, a) *
-          (x[0] * y[0] * nodal[2 * n + a] + x[1] * y[1] * nodal[3 * n + a] +
-           (x[0] * y[1] + x[1] * y[0]) * nodal[4 * n + a]);
-      return sum;
-    }
-
-  private:
-    void
-    fill(const Iterator &cell)
-    {
-      values_.reinit(cell);
-      const unsigned int n = projection_.m();
-      for (unsigned int field = 0; field < fields_.size(); ++field)
-        {
-          cell->get_dof_values(*fields_[field].displacement, u_);
-          Vector3 *nodal = const_cast<Vector3 *>(this->nodal(cell, field));
-          for (unsigned int q = 0; q < quadrature_.size(); ++q)
-            {
-              const auto vectors = at_point(q);
-              for (unsigned int v = 0; v < n_vectors; ++v)
-                for (unsigned int a = 0; a < n; ++a)
-                  nodal[v * n + a] += projection_(a, q) * vectors[v];
-            }
-        }
-    }
-
-    std::array<Vector3, n_vectors>
-    at_point(const unsigned int q) const
-    {
-      Voigt<> eps, rho;
-      for (unsigned int v = 0; v < 3; ++v)
-        for (unsigned int i = 0; i < u_.size(); ++i)
-          {
-            eps[v] += values_.membrane_rows()(3 * q + v, i) * u_[i];
-            rho[v] += values_.bending_rows()(3 * q + v, i) * u_[i];
-          }
-      const auto &frame     = values_.frame(q);
-      const auto  stiffness = section_.stiffness(frame, values_.point(q));
-      const auto  n         = frame.j0 * (stiffness.membrane * eps);
-      const auto  m         = frame.j0 * (stiffness.bending * rho);
-      const auto &a         = frame.a_cov;
-
-      std::array<Vector3, n_vectors> vectors;
-      vectors[0] = n[0] * a[0] + n[2] * a[1];
-      vectors[1] = n[2] * a[0] + n[1] * a[1];
-      for (unsigned int b = 0; b < 2; ++b)
-        {
-          const auto &Gamma = frame.christoffel[b];
-          vectors[b] +=
-            (m[0] * Gamma[0] + m[1] * Gamma[1] + 2. * m[2] * Gamma[2]) *
-            frame.t0;
-        }
-      for (unsigned int v = 0; v < 3; ++v)
-        vectors[2 + v] = m[v] * frame.t0;
-      return vectors;
-    }
-
-    const Discretization     &discretization_;
-    const SectionLaw         &section_;
-    const std::vector<Field> &fields_;
-    const Quadrature<dim>     quadrature_;
-    ShellCellValues           values_;
-    const FullMatrix<double>  projection_;
-    dealii::Vector<double>    u_;
-    std::vector<Tensor3>      weights_;
-    /** [cell][field][vector][node] */
-    std::vector<Vector3> nodal_;
-  };
-
 
   /** The residuals of one or two fields, and their products. */
   class ErrorEstimator::Assembly
@@ -342,7 +86,11 @@ namespace Nacre
       : estimator_(estimator)
       , discretization_(estimator.discretization_)
       , fields_(fields)
-      , stresses_(estimator, fields)
+      , stresses_(discretization_,
+                  estimator.section_,
+                  estimator.kinematics_.membrane_strain == MembraneStrain::tied,
+                  displacements(fields))
+      , weights_(discretization_.triangulation().n_active_cells())
       , cell_values_(discretization_,
                      discretization_.element().full_quadrature(),
                      false)
@@ -353,12 +101,49 @@ namespace Nacre
       , moments_(fields.size())
       , rotations_(fields.size())
     {
+      fill_weights();
       for (unsigned int f = 0; f < fields.size(); ++f)
         for (unsigned int g = f; g < fields.size(); ++g)
           pairs_.emplace_back(f, g);
       products_.assign(pairs_.size(),
                        ErrorIndicators(
                          discretization_.triangulation().n_active_cells()));
+    }
+
+    static std::vector<const Vector *>
+    displacements(const std::vector<Field> &fields)
+    {
+      std::vector<const Vector *> result;
+      for (const auto &field : fields)
+        result.push_back(field.displacement);
+      return result;
+    }
+
+    /** W of the cells of this rank and their ghosts. */
+    void
+    fill_weights()
+    {
+      const auto      cell_type = discretization_.element().reference_cell();
+      ShellCellValues values(discretization_,
+                             Quadrature<dim>(cell_type.barycenter<dim>()),
+                             false);
+      for (const auto &cell :
+           discretization_.dof_handler().active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            values.reinit_frames(cell);
+            weights_[cell->active_cell_index()] =
+              error_weight(values.frame(0),
+                           estimator_.section_.stiffness(values.frame(0),
+                                                         values.point(0)),
+                           resolved_wave_number(discretization_.degree()));
+          }
+    }
+
+    const Tensor3 &
+    weight_of(const Iterator &cell) const
+    {
+      return weights_[cell->active_cell_index()];
     }
 
     /** Indicators of (0, 0), (0, 1), (1, 1), or of (0, 0) only. */
@@ -400,17 +185,18 @@ namespace Nacre
       cell_values_.reinit_frames(cell);
       const auto &section = estimator_.section_;
       const auto &loads   = estimator_.loads_;
-      const auto &W       = stresses_.weight_of(cell);
+      const auto &W       = weight_of(cell);
       for (unsigned int q = 0; q < cell_values_.n_points(); ++q)
         {
           const auto &frame = cell_values_.frame(q);
           const auto  x     = cell_values_.point(q);
           for (unsigned int f = 0; f < fields_.size(); ++f)
             {
-              vectors_[f] = Stresses::divergence(stresses_.nodal(cell, f),
-                                                 cell_values_.shapes(),
-                                                 q) /
-                            frame.j0;
+              vectors_[f] =
+                StressPolynomials::divergence(stresses_.nodal(cell, f),
+                                              cell_values_.shapes(),
+                                              q) /
+                frame.j0;
               if (fields_[f].has_data && !loads.no_surface_load())
                 vectors_[f] += loads.force_per_area(x,
                                                     frame.t0,
@@ -482,13 +268,13 @@ namespace Nacre
           const auto   &frame = edge_.frame(side, q);
           const Vector3 nu    = outward(side, q);
           const Vector3 tau   = tangents_[q];
-          twist[q] =
-            Stresses::moment(stresses_.nodal(cell, field),
-                             edge_.shapes(side),
-                             q,
-                             {{frame.a_cov[0] * nu, frame.a_cov[1] * nu}},
-                             {{frame.a_cov[0] * tau, frame.a_cov[1] * tau}}) /
-            frame.j0;
+          twist[q]            = StressPolynomials::moment(
+                       stresses_.nodal(cell, field),
+                       edge_.shapes(side),
+                       q,
+                       {{frame.a_cov[0] * nu, frame.a_cov[1] * nu}},
+                       {{frame.a_cov[0] * tau, frame.a_cov[1] * tau}}) /
+                     frame.j0;
         }
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int r = 0; r < n; ++r)
@@ -536,9 +322,9 @@ namespace Nacre
                 const auto &frame = edge_.frame(side, q);
                 const auto  nu    = outward(side, q);
                 const auto  force =
-                  Stresses::forces(stresses_.nodal(cells[side], f),
-                                   edge_.shapes(side),
-                                   q);
+                  StressPolynomials::forces(stresses_.nodal(cells[side], f),
+                                            edge_.shapes(side),
+                                            q);
                 for (unsigned int b = 0; b < 2; ++b)
                   tractions[f][q] +=
                     (frame.a_cov[b] * nu) / frame.j0 * force[b];
@@ -552,7 +338,7 @@ namespace Nacre
           fill_hinge(q);
           if (n_sides == 1)
             apply_boundary_data(id, q);
-          add_edge_point(cells, id, q);
+          add_edge_point(cells, q);
         }
     }
 
@@ -615,9 +401,7 @@ namespace Nacre
     }
 
     void
-    add_edge_point(const std::array<Iterator, 2> &cells,
-                   const types::boundary_id       id,
-                   const unsigned int             q)
+    add_edge_point(const std::array<Iterator, 2> &cells, const unsigned int q)
     {
       const unsigned int n_sides = edge_.n_sides();
       Tensor3            W;
@@ -625,12 +409,12 @@ namespace Nacre
       Vector3            t0;
       for (unsigned int side = 0; side < n_sides; ++side)
         {
-          W += stresses_.weight_of(cells[side]) / n_sides;
+          W += weight_of(cells[side]) / n_sides;
           h += height(edge_.frame(side, q), outward(side, q)) / n_sides;
           t0 += edge_.sigma(side, q) * edge_.frame(side, q).t0;
         }
       t0 /= t0.norm();
-      const double k       = wave_number(discretization_.degree()) / h;
+      const double k       = resolved_wave_number(discretization_.degree()) / h;
       const double W_n     = t0 * (W * t0);
       const auto  &penalty = estimator_.penalty_;
       const double eta   = n_sides == 2 ? penalty.interior(cells[0], cells[1]) :
@@ -659,13 +443,13 @@ namespace Nacre
                      return rotations_[f] * rotations_[g];
                    });
         }
-      (void)id;
     }
 
     const ErrorEstimator                              &estimator_;
     const Discretization                              &discretization_;
     const std::vector<Field>                          &fields_;
-    const Stresses                                     stresses_;
+    const StressPolynomials                            stresses_;
+    std::vector<Tensor3>                               weights_;
     ShellCellValues                                    cell_values_;
     ShellEdgeValues                                    edge_;
     const Quadrature<1>                                edge_rule_;

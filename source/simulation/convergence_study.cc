@@ -254,7 +254,7 @@ namespace Nacre
     if (row.iterations > 0)
       line << ", " << row.solver << ", " << row.iterations << " iterations";
     const double imbalance = cell_imbalance(problem_.discretization());
-    if (adaptive_.is_on() && imbalance > 1.)
+    if (adaptive_.is_on() && Utilities::MPI::n_mpi_processes(communicator_) > 1)
       line << ", cells of a rank max/mean " << std::fixed
            << std::setprecision(3) << imbalance;
     if (!row.values.empty())

@@ -88,6 +88,34 @@ case("analysis_restart_nothing", ["--restart", "no checkpoint", "checkpoint"],
 case("analysis_restart_linear", ["--restart", "Analysis/Type"],
      args=["--restart"])
 
+# --- Adaptive refinement ---------------------------------------------------
+CYCLES = {"Adaptive refinement/Cycles": "2"}
+GOAL = dict(CYCLES, **{"Adaptive refinement/Estimator": "goal"})
+for name, value in (("zero", "0"), ("negative", "-0.5"), ("above_one", "1.5")):
+    case("adaptive_fraction_" + name,
+         ["Adaptive refinement/Fraction", value, "above 0 and at most 1"],
+         dict(CYCLES, **{"Adaptive refinement/Fraction": value}))
+case("adaptive_goal_unknown",
+     ["Adaptive refinement/Goal", "wmax", "w, U"],
+     dict(GOAL, **{"Adaptive refinement/Goal": "wmax"}))
+case("adaptive_goal_missing", ["Adaptive refinement/Goal", "w, U"], GOAL)
+case("adaptive_goal_nonlinear",
+     ["Adaptive refinement/Goal", "'m'", "not linear", "a displacement at a point"],
+     dict(GOAL, **{"Adaptive refinement/Goal": "m",
+                   "Quantities/Quantities": "m = maximum displacement"}))
+case("adaptive_goal_without_effect",
+     ["Adaptive refinement/Goal", "'w'", "Estimator = goal"],
+     dict(CYCLES, **{"Adaptive refinement/Goal": "w"}))
+case("adaptive_triangles",
+     ["Adaptive refinement/Cycles", "triangles", "quadrilaterals"],
+     dict(CYCLES, **{"Discretization/Element": "triangle"}))
+case("adaptive_nonlinear", ["Adaptive refinement/Cycles", "linear analysis"],
+     dict(CYCLES, **{"Analysis/Type": "static"}))
+case("adaptive_estimator", ["Estimator", "patch", "residual"],
+     dict(CYCLES, **{"Adaptive refinement/Estimator": "patch"}))
+case("adaptive_column", ["Quantities/Quantities", "estimate", "another name"],
+     {"Quantities/Quantities": "estimate = energy"})
+
 # --- Section ---------------------------------------------------------------
 for name, value in (("negative", "-0.1"), ("zero", "0")):
     case("thickness_" + name,

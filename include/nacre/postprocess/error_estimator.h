@@ -5,7 +5,6 @@
 #define nacre_postprocess_error_estimator_h
 
 #include <nacre/discretization/displacement_conditions.h>
-#include <nacre/discretization/shell_values.h>
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/kinematics_options.h>
 
@@ -89,13 +88,8 @@ namespace Nacre
    * and p the load give r = p + div f; J is the jump of the traction
    * f^b nu_b + d/ds (m^ab nu_a tau_b t0). The stresses are interpolated
    * within each cell and differentiated, and no residual is split into
-   * components: the weight W (a tensor of space) does that.
+   * components: the weight W, a tensor of space, does that (error_weight()).
    *
-   * W = mean of A(k)^-1 over the directions of waves k that a cell resolves
-   * just no more, k = pi p on the reference cell, and A(k) is the symbol of
-   * the shell's energy: on a plate W_n = 1/(D k^4) ~ h^4 / D and the tangential
-   * part ~ h^2 / C; on a curved thin shell the membrane stiffness against
-   * deflections bounds W_n, so that the estimate holds from thick to thin.
    * doc/adaptive.md derives it and tells what is neglected.
    */
   class ErrorEstimator
@@ -131,17 +125,7 @@ namespace Nacre
     std::array<ErrorIndicators, 3>
     estimate(const Field &u, const Field &z) const;
 
-    /**
-     * W (length^3/force) of waves that the cell of @p frame resolves just no
-     * more: see above.
-     */
-    static Tensor<2, spacedim>
-    weight(const SurfaceFrame<>   &frame,
-           const SectionStiffness &stiffness,
-           const unsigned int      degree);
-
   private:
-    class Stresses;
     class Assembly;
 
     const Discretization        &discretization_;
