@@ -4,6 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
 #include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/hdf5_output.h>
 #include <nacre/postprocess/vtu_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <sstream>
 
 namespace Nacre
 {
@@ -129,6 +131,16 @@ namespace Nacre
         scalar("energy_density", [](S s) { return s.energy_density; }),
         scalar("rank", [](S s) { return s.rank; })};
       return list;
+    }
+
+    DataOutBase::VtkFlags
+    output_flags()
+    {
+      DataOutBase::VtkFlags flags;
+      flags.print_date_and_time = false;
+      flags.compression_level   = DataOutBase::VtkFlags::default_compression;
+      flags.write_higher_order_cells = true;
+      return flags;
     }
 
     /** Components e_i . T e_j of a tensor of the tangent plane. */
@@ -291,14 +303,103 @@ namespace Nacre
       Vector<double>                       bending_strains_;
     };
 
-    /** The file that holds or lists all cells. */
     std::string
-    record_name(const std::string &name,
-                const unsigned int counter,
-                const unsigned int n_ranks)
+    path_of(const std::string &folder, const std::string &name)
     {
-      return name + "_" + std::to_string(counter) +
-             (n_ranks == 1 ? ".vtu" : ".pvtu");
+      return (std::filesystem::path(folder) / name).string();
+    }
+
+    /** What one write() needs to know of the ranks. */
+    struct Groups
+    {
+      Groups(const Discretization &discretization,
+             const unsigned int    ranks_per_file)
+        : communicator(discretization.communicator())
+        , size(ranks_per_file)
+        , n_cells(Utilities::MPI::all_gather(
+            communicator,
+            discretization.triangulation().n_locally_owned_active_cells()))
+        , rank(Utilities::MPI::this_mpi_process(communicator))
+      {}
+
+      unsigned int
+      n() const
+      {
+        return (n_cells.size() + size - 1) / size;
+      }
+
+      bool
+      has_cells(const unsigned int group) const
+      {
+        const auto begin = n_cells.begin() + group * size;
+        const auto end =
+          n_cells.begin() +
+          std::min<std::size_t>((group + 1) * size, n_cells.size());
+        return std::any_of(begin, end, [](const auto n) { return n > 0; });
+      }
+
+      std::string
+      file(const std::string &base, const unsigned int group) const
+      {
+        return n() == 1 ? base + ".vtu" :
+                          base + "." + std::to_string(group) + ".vtu";
+      }
+
+      const MPI_Comm                  communicator;
+      const unsigned int              size;
+      const std::vector<unsigned int> n_cells;
+      const unsigned int              rank;
+    };
+
+    /**
+     * The cells of each group go through its first rank into one file: no
+     * parallel file system is needed.
+     * @return the file that holds or lists all cells
+     */
+    std::string
+    write_vtu_files(const ShellFields &fields,
+                    const Groups      &groups,
+                    const std::string &folder,
+                    const std::string &base)
+    {
+      std::map<unsigned int, std::string> mine;
+      if (groups.n_cells[groups.rank] > 0)
+        {
+          std::ostringstream piece;
+          DataOutBase::write_vtu_main(fields.get_patches(),
+                                      fields.get_dataset_names(),
+                                      fields.get_nonscalar_data_ranges(),
+                                      output_flags(),
+                                      piece);
+          mine[groups.rank - groups.rank % groups.size] = piece.str();
+        }
+      const auto pieces =
+        Utilities::MPI::some_to_some(groups.communicator, mine);
+      run_on_all_ranks(groups.communicator, [&] {
+        if (pieces.empty())
+          return;
+        const auto file = groups.file(base, groups.rank / groups.size);
+        write_file(path_of(folder, file), [&](std::ostream &out) {
+          DataOutBase::write_vtu_header(out, output_flags());
+          for (const auto &piece : pieces)
+            out << piece.second;
+          DataOutBase::write_vtu_footer(out);
+        });
+      });
+      if (groups.n() == 1)
+        return groups.file(base, 0);
+
+      const std::string record = base + ".pvtu";
+      run_on_root(groups.communicator, [&] {
+        std::vector<std::string> files;
+        for (unsigned int group = 0; group < groups.n(); ++group)
+          if (groups.has_cells(group))
+            files.push_back(groups.file(base, group));
+        write_file(path_of(folder, record), [&](std::ostream &out) {
+          fields.write_pvtu_record(out, files);
+        });
+      });
+      return record;
     }
   } // namespace
 
@@ -307,17 +408,20 @@ namespace Nacre
                            const SectionLaw                    &section,
                            const KinematicsOptions             &kinematics,
                            const TrilinosWrappers::MPI::Vector &displacement,
-                           const std::vector<double> &error_indicators)
+                           const std::vector<double> &error_indicators,
+                           const unsigned int         n_subdivisions)
     : has_error_indicators_(!error_indicators.empty())
   {
-    const unsigned int degree = discretization.degree();
-    const bool         triangles =
+    const bool triangles =
       discretization.element().type == ElementType::triangle;
+    const unsigned int n = (triangles || n_subdivisions == 0) ?
+                             discretization.degree() :
+                             n_subdivisions;
     // Points of a patch: a lexicographic grid, or the nodes of a triangle.
     const Quadrature<dim> points =
       triangles ?
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
-        Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), degree));
+        Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
     CellStates         states(discretization,
                       section,
                       points,
@@ -333,7 +437,7 @@ namespace Nacre
           Patch patch;
           patch.patch_index          = patches_.size();
           patch.reference_cell       = cell->reference_cell();
-          patch.n_subdivisions       = degree;
+          patch.n_subdivisions       = n;
           patch.points_are_available = true;
           patch.data.reinit(n_components + spacedim, points.size());
           for (unsigned int q = 0; q < points.size(); ++q)
@@ -350,21 +454,15 @@ namespace Nacre
                 patch.data(row++, q) = states.position(q)[c];
             }
           const std::vector<unsigned int> corners =
-            triangles ? std::vector<unsigned int>{0, 1, 2} :
-                        std::vector<unsigned int>{0,
-                                                  degree,
-                                                  degree * (degree + 1),
-                                                  points.size() - 1};
+            triangles ?
+              std::vector<unsigned int>{0, 1, 2} :
+              std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
           for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
             patch.vertices[vertex] = states.position(corners[vertex]);
           patches_.push_back(std::move(patch));
         }
 
-    DataOutBase::VtkFlags flags;
-    flags.print_date_and_time      = false;
-    flags.compression_level        = DataOutBase::VtkFlags::default_compression;
-    flags.write_higher_order_cells = true;
-    this->set_flags(flags);
+    this->set_flags(output_flags());
   }
 
 
@@ -405,16 +503,19 @@ namespace Nacre
   }
 
 
-  void
-  VtuOutput::resume(const std::string                    &folder,
-                    const std::string                    &name,
-                    const std::map<unsigned int, double> &written,
-                    const unsigned int                    n_ranks)
+  const FieldRecords &
+  VtuOutput::records(const std::string &folder, const std::string &name)
   {
-    const std::string pvd =
-      (std::filesystem::path(folder) / (name + ".pvd")).string();
-    for (const auto &[counter, time] : written)
-      records_[pvd][counter] = {time, record_name(name, counter, n_ranks)};
+    return records_[path_of(folder, name)];
+  }
+
+
+  void
+  VtuOutput::resume(const std::string  &folder,
+                    const std::string  &name,
+                    const FieldRecords &written)
+  {
+    records_[path_of(folder, name)] = written;
   }
 
 
@@ -431,48 +532,43 @@ namespace Nacre
   {
     const MPI_Comm communicator = discretization.communicator();
     run_on_root(communicator, [&] { create_folder(folder); });
-
-    const std::filesystem::path path(folder);
-    const std::string           base = name + "_" + std::to_string(counter);
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const std::vector<unsigned int> n_cells = Utilities::MPI::all_gather(
-      communicator,
-      discretization.triangulation().n_locally_owned_active_cells());
-    const auto piece = [&](const unsigned int rank) {
-      return n_ranks == 1 ? base + ".vtu" :
-                            base + "." + std::to_string(rank) + ".vtu";
-    };
-
-    std::unique_ptr<ShellFields> shell_fields;
+    std::unique_ptr<ShellFields> fields;
     run_on_all_ranks(communicator, [&] {
-      const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
-      shell_fields            = std::make_unique<ShellFields>(discretization,
-                                                   section,
-                                                   kinematics,
-                                                   ghosted_displacement,
-                                                   error_indicators);
-      if (n_cells[rank] > 0)
-        write_file((path / piece(rank)).string(),
-                   [&](std::ostream &out) { shell_fields->write_vtu(out); });
+      fields = std::make_unique<ShellFields>(discretization,
+                                             section,
+                                             kinematics,
+                                             ghosted_displacement,
+                                             error_indicators,
+                                             options_.n_subdivisions);
     });
-
-    const std::string record = record_name(name, counter, n_ranks);
+    const std::string base    = name + "_" + std::to_string(counter);
+    const std::string all     = path_of(folder, name);
+    const bool        is_hdf5 = (options_.format == FieldFormat::hdf5);
+    FieldRecords     &records = records_[all];
+    records[counter]          = {time,
+                        is_hdf5 ?
+                                   write_hdf5(*fields,
+                                     communicator,
+                                     discretization.element().reference_cell(),
+                                     folder,
+                                     base,
+                                     time) :
+                                   write_vtu_files(*fields,
+                                          Groups(discretization,
+                                                 options_.ranks_per_file),
+                                          folder,
+                                          base)};
     run_on_root(communicator, [&] {
-      std::vector<std::string> pieces;
-      for (unsigned int rank = 0; rank < n_ranks; ++rank)
-        if (n_cells[rank] > 0)
-          pieces.push_back(piece(rank));
-      if (n_ranks > 1)
-        write_file((path / record).string(), [&](std::ostream &out) {
-          shell_fields->write_pvtu_record(out, pieces);
-        });
-
-      const std::string pvd  = (path / (name + ".pvd")).string();
-      records_[pvd][counter] = {time, record};
+      if (is_hdf5)
+        {
+          write_file(all + ".xdmf",
+                     [&](std::ostream &out) { write_xdmf(out, records); });
+          return;
+        }
       std::vector<std::pair<double, std::string>> times;
-      for (const auto &entry : records_[pvd])
+      for (const auto &entry : records)
         times.push_back(entry.second);
-      write_file(pvd, [&](std::ostream &out) {
+      write_file(all + ".pvd", [&](std::ostream &out) {
         DataOutBase::write_pvd_record(out, times);
       });
     });

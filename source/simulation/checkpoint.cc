@@ -3,14 +3,21 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
+#include <nacre/discretization/discretization.h>
 #include <nacre/simulation/checkpoint.h>
+
+#include <deal.II/grid/cell_id.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -20,24 +27,14 @@ namespace Nacre
   {
     using Vector = TrilinosWrappers::MPI::Vector;
 
-    std::vector<double>
-    owned_values(const Vector &v)
-    {
-      return std::vector<double>(v.begin(), v.end());
-    }
+    /** The first entry of each file: another layout has another number. */
+    const std::string layout = "nacre checkpoint 2";
 
-    void
-    set_owned_values(Vector                    &v,
-                     const std::vector<double> &values,
-                     const std::string         &file)
+    std::array<Vector *, 3>
+    vectors_of(CheckpointData &data)
     {
-      AssertThrow(values.size() == v.locally_owned_size(),
-                  ExcMessage("The checkpoint '" + file +
-                             "' is of another mesh: it has " +
-                             std::to_string(values.size()) +
-                             " unknowns on this rank, the problem " +
-                             std::to_string(v.locally_owned_size()) + "."));
-      std::copy(values.begin(), values.end(), v.begin());
+      auto &motion = data.state.motion;
+      return {{&motion.u, &motion.v, &motion.a}};
     }
 
     /** All plain numbers, in one order for both directions. */
@@ -52,14 +49,103 @@ namespace Nacre
     }
   } // namespace
 
-  Checkpoint::Checkpoint(const MPI_Comm     communicator,
-                         const std::string &base_name,
-                         const std::string &problem)
-    : communicator_(communicator)
+
+  /** Values of several vectors at the nodes of this rank's cells, by cell. */
+  class Checkpoint::CellValues
+  {
+  public:
+    using CellIterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+
+    explicit CellValues(const Discretization &discretization)
+      : dof_handler_(discretization.dof_handler())
+      , owned_(discretization.locally_owned_dofs())
+      , dofs_(dof_handler_.get_fe().n_dofs_per_cell())
+    {
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+          missing_.emplace(cell->id().to_binary<dim>(), cell);
+    }
+
+    /** @p vectors are ghosted; one rank's own archive. */
+    template <typename Archive>
+    void
+    write(Archive &archive, const std::vector<Vector> &vectors)
+    {
+      std::vector<unsigned int> keys;
+      std::vector<double>       values;
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            for (const unsigned int part : cell->id().to_binary<dim>())
+              keys.push_back(part);
+            cell->get_dof_indices(dofs_);
+            for (const Vector &vector : vectors)
+              for (const auto dof : dofs_)
+                values.push_back(vector(dof));
+          }
+      unsigned int           n_dofs = dofs_.size();
+      archive &n_dofs &keys &values;
+    }
+
+    /** Take the values of those cells that are this rank's. */
+    template <typename Archive>
+    void
+    read(Archive                       &archive,
+         const std::array<Vector *, 3> &vectors,
+         const std::string             &file)
+    {
+      unsigned int              n_dofs = 0;
+      std::vector<unsigned int> keys;
+      std::vector<double>       values;
+      archive &n_dofs &keys    &values;
+      CellId::binary_type       key;
+      const std::size_t         n_cells = keys.size() / key.size();
+      AssertThrow(n_dofs == dofs_.size() &&
+                    values.size() == n_cells * vectors.size() * n_dofs,
+                  ExcMessage("--restart: '" + file +
+                             "' is of another element."));
+      for (std::size_t k = 0; k < n_cells; ++k)
+        {
+          std::copy_n(keys.begin() + k * key.size(), key.size(), key.begin());
+          const auto found = missing_.find(key);
+          if (found == missing_.end())
+            continue;
+          found->second->get_dof_indices(dofs_);
+          auto value = values.begin() + k * vectors.size() * n_dofs;
+          for (Vector *const vector : vectors)
+            for (const auto dof : dofs_)
+              {
+                if (owned_.is_element(dof))
+                  (*vector)(dof) = *value;
+                ++value;
+              }
+          missing_.erase(found);
+        }
+    }
+
+    bool
+    is_complete() const
+    {
+      return missing_.empty();
+    }
+
+  private:
+    const DoFHandler<dim, spacedim>            &dof_handler_;
+    const IndexSet                             &owned_;
+    std::vector<types::global_dof_index>        dofs_;
+    std::map<CellId::binary_type, CellIterator> missing_;
+  };
+
+
+  Checkpoint::Checkpoint(const Discretization &discretization,
+                         const std::string    &base_name,
+                         const std::string    &problem)
+    : discretization_(discretization)
+    , communicator_(discretization.communicator())
     , base_name_(base_name)
     , problem_(problem)
-    , rank_(Utilities::MPI::this_mpi_process(communicator))
-    , n_ranks_(Utilities::MPI::n_mpi_processes(communicator))
+    , rank_(Utilities::MPI::this_mpi_process(communicator_))
+    , n_ranks_(Utilities::MPI::n_mpi_processes(communicator_))
   {}
 
   std::string
@@ -73,20 +159,21 @@ namespace Nacre
   Checkpoint::save(const CheckpointData &data)
   {
     slot_ = 1 - slot_;
+    CheckpointData      copy(data);
+    std::vector<Vector> ghosted;
+    for (const Vector *const vector : vectors_of(copy))
+      {
+        ghosted.emplace_back(discretization_.locally_owned_dofs(),
+                             discretization_.locally_relevant_dofs(),
+                             communicator_);
+        ghosted.back() = *vector;
+      }
     run_on_all_ranks(communicator_, [&]() {
       write_file(slot_file(slot_, rank_), [&](std::ostream &out) {
         boost::archive::binary_oarchive archive(out);
-        std::string                     problem = problem_;
-        unsigned int                    n_ranks = n_ranks_;
-        CheckpointData                  copy(data);
-        archive &problem               &n_ranks;
+        archive &layout                &problem_;
         numbers_of(archive, copy);
-        for (const Vector *v :
-             {&copy.state.motion.u, &copy.state.motion.v, &copy.state.motion.a})
-          {
-            std::vector<double> values = owned_values(*v);
-            archive            &values;
-          }
+        CellValues(discretization_).write(archive, ghosted);
       });
     });
     // All slots' files are complete: point to them.
@@ -94,57 +181,101 @@ namespace Nacre
       write_file(base_name_ + ".checkpoint", [&](std::ostream &out) {
         out << slot_ << ' ' << data.state.step << ' ' << n_ranks_ << '\n';
       });
+      // What more ranks of an earlier run have left in this slot.
+      remove_slot(slot_, n_ranks_);
     });
+  }
+
+  void
+  Checkpoint::read_record(unsigned int &n_writers)
+  {
+    const std::string record = base_name_ + ".checkpoint";
+    std::ifstream     in(record);
+    unsigned int      step = 0;
+    AssertThrow(in,
+                ExcMessage("--restart: there is no checkpoint '" + record +
+                           "'. 'Analysis/Checkpoint steps' tells when one is "
+                           "written."));
+    in >> slot_ >> step >> n_writers;
+    AssertThrow(in && slot_ < 2 && n_writers > 0,
+                ExcMessage("--restart: '" + record + "' is damaged."));
+  }
+
+  void
+  Checkpoint::read_file(const unsigned int writer,
+                        CheckpointData    &data,
+                        CellValues        &values) const
+  {
+    const std::string file = slot_file(slot_, writer);
+    std::ifstream     in(file, std::ios::binary);
+    AssertThrow(in, ExcMessage("--restart: '" + file + "' can't be read."));
+    try
+      {
+        boost::archive::binary_iarchive archive(in);
+        std::string                     found_layout, problem;
+        archive                        &found_layout;
+        AssertThrow(found_layout == layout,
+                    ExcMessage("--restart: '" + file +
+                               "' was written by another version of nacre."));
+        archive &problem;
+        AssertThrow(problem == problem_,
+                    ExcMessage("--restart: the checkpoint '" + base_name_ +
+                               ".checkpoint' is of another problem: " +
+                               problem + " instead of " + problem_ + "."));
+        numbers_of(archive, data);
+        values.read(archive, vectors_of(data), file);
+      }
+    catch (const boost::archive::archive_exception &error)
+      {
+        AssertThrow(false,
+                    ExcMessage("--restart: '" + file +
+                               "' is damaged: " + error.what() + "."));
+      }
   }
 
   void
   Checkpoint::load(CheckpointData &data)
   {
-    const std::string record = base_name_ + ".checkpoint";
     run_on_all_ranks(communicator_, [&]() {
-      std::ifstream in(record);
-      unsigned int  step = 0, n_ranks = 0;
-      AssertThrow(in,
-                  ExcMessage("--restart: there is no checkpoint '" + record +
-                             "'. 'Analysis/Checkpoint steps' tells when one is "
-                             "written."));
-      in >> slot_ >> step >> n_ranks;
-      AssertThrow(in && slot_ < 2,
-                  ExcMessage("--restart: '" + record + "' is damaged."));
-      AssertThrow(n_ranks == n_ranks_,
-                  ExcMessage("--restart: the checkpoint '" + record +
-                             "' was written by " + std::to_string(n_ranks) +
-                             " ranks, not " + std::to_string(n_ranks_) + "."));
-      const std::string file = slot_file(slot_, rank_);
-      std::ifstream     state(file, std::ios::binary);
-      AssertThrow(state,
-                  ExcMessage("--restart: '" + file + "' can't be read."));
-      try
+      unsigned int n_writers = 0;
+      read_record(n_writers);
+      // The files in the order of their distance on the curve, this rank's
+      // place on which is the same part of the whole.
+      std::vector<unsigned int> writers(n_writers);
+      for (unsigned int writer = 0; writer < n_writers; ++writer)
+        writers[writer] = writer;
+      const double place = (rank_ + 0.5) * n_writers / n_ranks_ - 0.5;
+      std::stable_sort(writers.begin(),
+                       writers.end(),
+                       [place](const unsigned int a, const unsigned int b) {
+                         return std::abs(a - place) < std::abs(b - place);
+                       });
+      CellValues values(discretization_);
+      for (const unsigned int writer : writers)
         {
-          boost::archive::binary_iarchive archive(state);
-          std::string                     problem;
-          archive &problem               &n_ranks;
-          AssertThrow(problem == problem_,
-                      ExcMessage("--restart: the checkpoint '" + record +
-                                 "' is of another problem: " + problem +
-                                 " instead of " + problem_ + "."));
-          numbers_of(archive, data);
-          for (Vector *v : {&data.state.motion.u,
-                            &data.state.motion.v,
-                            &data.state.motion.a})
-            {
-              std::vector<double> values;
-              archive            &values;
-              set_owned_values(*v, values, record);
-            }
+          // A rank without cells needs the numbers of the path, too.
+          if (values.is_complete() && writer != writers.front())
+            break;
+          read_file(writer, data, values);
         }
-      catch (const boost::archive::archive_exception &error)
-        {
-          AssertThrow(false,
-                      ExcMessage("--restart: '" + file +
-                                 "' is damaged: " + error.what() + "."));
-        }
+      AssertThrow(values.is_complete(),
+                  ExcMessage("--restart: the checkpoint '" + base_name_ +
+                             ".checkpoint' is of another mesh: it lacks cells "
+                             "of this one."));
     });
+    for (Vector *const vector : vectors_of(data))
+      vector->compress(VectorOperation::insert);
+  }
+
+  void
+  Checkpoint::remove_slot(const unsigned int slot,
+                          const unsigned int first) const
+  {
+    std::error_code not_there;
+    for (unsigned int rank = first;
+         std::filesystem::remove(slot_file(slot, rank), not_there);
+         ++rank)
+      {}
   }
 
   void
@@ -153,7 +284,6 @@ namespace Nacre
     std::error_code not_there;
     std::filesystem::remove(base_name_ + ".checkpoint", not_there);
     for (const unsigned int slot : {0, 1})
-      for (unsigned int rank = 0; rank < n_ranks_; ++rank)
-        std::filesystem::remove(slot_file(slot, rank), not_there);
+      remove_slot(slot, 0);
   }
 } // namespace Nacre

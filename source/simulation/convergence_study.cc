@@ -87,6 +87,26 @@ namespace Nacre
     add_parameter("Write VTU",
                   write_vtu_,
                   "Write the fields of every case for ParaView.");
+    add_parameter("Output format",
+                  field_format_,
+                  "Files of the fields. vtu: higher-order cells, a .pvd lists "
+                  "all times; hdf5: linear cells, one file for any number of "
+                  "ranks, an .xdmf lists all times.",
+                  prm,
+                  Patterns::Selection("vtu|hdf5"));
+    add_parameter("Ranks per VTU file",
+                  ranks_per_file_,
+                  "The cells of so many ranks share a .vtu; if it takes more "
+                  "than one, a .pvtu lists them. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Output subdivisions",
+                  n_subdivisions_,
+                  "Parts of each edge of quadrilaterals in the fields: points "
+                  "(vtu) or linear cells (hdf5), up to 10; 0: the degree p. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Integer(0, 10));
     add_parameter("Report seconds",
                   report_seconds_,
                   "Whether the terminal shows CPU seconds; without them the "
@@ -184,7 +204,7 @@ namespace Nacre
       create_folder(output_folder_);
       // A run that fails must not leave an older one's results.
       std::error_code not_there;
-      for (const auto *const ending : {".csv", ".txt", ".tex", ".pvd"})
+      for (const auto *const ending : {".csv", ".txt", ".tex", ".pvd", ".xdmf"})
         std::filesystem::remove(base_name() + ending, not_there);
       write_used_parameters(base_name() + ".used.prm");
     });
@@ -243,6 +263,14 @@ namespace Nacre
     return line.str();
   }
 
+  VtuOutput::Options
+  ConvergenceStudy::field_options() const
+  {
+    return {field_format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu,
+            ranks_per_file_,
+            n_subdivisions_};
+  }
+
   void
   ConvergenceStudy::follow_path(const std::string &name,
                                 const bool         restart,
@@ -258,10 +286,11 @@ namespace Nacre
             << ", " << shell.dof_handler().n_dofs() << " dofs";
     const std::string base =
       (std::filesystem::path(output_folder_) / name).string();
-    Checkpoint  checkpoint(communicator_, base, problem.str());
+    Checkpoint  checkpoint(shell, base, problem.str());
     PathMonitor monitor(communicator_,
                         {output_folder_,
                          name,
+                         field_options(),
                          write_vtu_,
                          report_seconds_,
                          path.vtu_steps,
@@ -354,7 +383,7 @@ namespace Nacre
     for (const auto &column : adaptive_.columns(problem_.exact_solution()))
       columns.push_back(column);
     ResultsTable table(heading_.title, columns);
-    VtuOutput    vtu_output;
+    VtuOutput    vtu_output(field_options());
 
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
@@ -380,7 +409,10 @@ namespace Nacre
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
     log.results() << text.str() << "\nResults: " << base_name()
-                  << ".csv (.txt, .tex" << (write_vtu_ ? ", .pvd)" : ")")
+                  << ".csv (.txt, .tex"
+                  << (!write_vtu_             ? ")" :
+                      field_format_ == "hdf5" ? ", .xdmf)" :
+                                                ", .pvd)")
                   << std::endl;
   }
 } // namespace Nacre

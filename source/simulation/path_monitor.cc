@@ -25,6 +25,7 @@ namespace Nacre
     , quantities_(quantities)
     , checkpoint_(checkpoint)
     , log_(log)
+    , vtu_output_(options.fields)
   {}
 
   std::string
@@ -40,10 +41,7 @@ namespace Nacre
   {
     written_    = data;
     start_time_ = data.state.time;
-    vtu_output_.resume(options_.folder,
-                       options_.name,
-                       data.written_fields,
-                       Utilities::MPI::n_mpi_processes(communicator_));
+    vtu_output_.resume(options_.folder, options_.name, data.written_fields);
     // Rows after the checkpoint will be written again.
     run_on_root(communicator_, [&]() {
       std::ifstream      in(csv_file());
@@ -104,7 +102,8 @@ namespace Nacre
                       options_.name,
                       state.step,
                       state.time);
-    written_.written_fields[state.step] = state.time;
+    written_.written_fields =
+      vtu_output_.records(options_.folder, options_.name);
   }
 
   void

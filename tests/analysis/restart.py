@@ -5,8 +5,11 @@
 results are those of a run that was left alone, bit for bit on one rank.
 
   restart.py NACRE [--ranks N]
+  restart.py NACRE --change-ranks
 
 Also: a path that can't go on leaves its last good state, and says why.
+With --change-ranks, runs are stopped halfway and go on on another number of
+ranks, with quadrilaterals and with triangles.
 """
 import argparse
 import csv
@@ -60,9 +63,10 @@ end
 N_KILLS = 10
 
 
-def command(arguments, folder, *more):
-    start = (["mpirun", "--oversubscribe", "-np", str(arguments.ranks)]
-             if arguments.ranks > 1 else [])
+def command(arguments, folder, *more, ranks=None):
+    ranks = ranks or arguments.ranks
+    start = (["mpirun", "--oversubscribe", "-np", str(ranks)]
+             if ranks > 1 else [])
     return start + [arguments.nacre, str(folder / "run.prm"), "--set",
                     f"Study/Output folder={folder / 'out'}", *more]
 
@@ -72,9 +76,10 @@ def rows(file):
         return list(csv.reader(lines))
 
 
-def run(arguments, folder, *more):
-    done = subprocess.run(command(arguments, folder, *more), text=True,
-                          capture_output=True, timeout=250, check=False)
+def run(arguments, folder, *more, ranks=None):
+    done = subprocess.run(command(arguments, folder, *more, ranks=ranks),
+                          text=True, capture_output=True, timeout=250,
+                          check=False)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -156,11 +161,62 @@ def check_failing_path(arguments, folder):
         sys.exit(f"the fields of the last good step {step} are missing")
 
 
+def must_run(arguments, folder, *more, ranks=None):
+    code, text = run(arguments, folder, *more, ranks=ranks)
+    if code != 0:
+        sys.exit(f"exit code {code}: {text}")
+
+
+def check_change_of_ranks(arguments, folder, element):
+    """Halfway on some ranks, the rest on others, as if nothing had happened."""
+    (folder / "run.prm").write_text(PRM)
+    short = ("--set", "Analysis/End time=0.16", "--set",
+             f"Discretization/Element={element}")
+    half = short + ("--set", "Analysis/End time=0.08")
+    must_run(arguments, folder, *short, ranks=1)
+    expected = rows(folder / "out" / "run_path.csv")
+    for first, second in ((1, 2), (3, 1), (2, 3)):
+        must_run(arguments, folder, *half, ranks=first)
+        must_run(arguments, folder, *short, "--restart", ranks=second)
+        compare(rows(folder / "out" / "run_path.csv"), expected, 1e-8)
+        out = folder / "out"
+        record = (out / "run.checkpoint").read_text().split()
+        left = len(list(out.glob(f"run.checkpoint.{record[0]}.*")))
+        if int(record[2]) != second or left != second:
+            sys.exit(f"{element}, {first} to {second} ranks: {left} files, "
+                     f"record {record}")
+        listed = [line.split('file="')[1].split('"')[0] for line in
+                  (out / "run.pvd").read_text().splitlines()
+                  if "DataSet" in line]
+        missing = [file for file in listed if not (out / file).exists()]
+        if len(listed) != 4 or missing:
+            sys.exit(f"the .pvd lists {listed}; not there: {missing}")
+    # Another mesh, and a file that is gone.
+    code, text = run(arguments, folder, *short, "--restart", "--set",
+                     "Study/Refinements=1", ranks=2)
+    if code == 0 or "of another problem" not in text:
+        sys.exit(f"a restart on another mesh: code {code}, said {text}")
+    slot = (folder / "out" / "run.checkpoint").read_text().split()[0]
+    (folder / "out" / f"run.checkpoint.{slot}.0").unlink()
+    code, text = run(arguments, folder, *short, "--restart", ranks=2)
+    if code == 0 or f"run.checkpoint.{slot}.0' can't be read" not in text:
+        sys.exit(f"a restart without a file: code {code}, said {text}")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("nacre")
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--change-ranks", action="store_true")
     arguments = parser.parse_args()
+    if arguments.change_ranks:
+        with tempfile.TemporaryDirectory() as name:
+            for element in ("Lagrange", "triangle"):
+                folder = pathlib.Path(name, element)
+                folder.mkdir()
+                check_change_of_ranks(arguments, folder, element)
+        print("the same path on changing numbers of ranks")
+        return
     with tempfile.TemporaryDirectory() as name:
         alone, killed = pathlib.Path(name, "alone"), pathlib.Path(name, "killed")
         failing = pathlib.Path(name, "failing")

@@ -21,7 +21,8 @@ import tempfile
 from pathlib import Path
 
 TIMEOUT = 60 if "NACRE_SLOW" in os.environ else 20
-RESULTS = {".csv", ".txt", ".tex", ".vtu", ".pvtu", ".pvd"}
+RESULTS = {".csv", ".txt", ".tex", ".vtu", ".pvtu", ".pvd",
+           ".h5", ".xdmf"}
 CRASH = ("Segmentation", "terminate called", "An error occurred in",
          "MPI_ABORT", "Backtrace", "backtrace", "*** Process received signal",
          "Additional information", "The violated condition")

@@ -437,7 +437,7 @@ namespace
       std::filesystem::remove_all("vtu_output_test");
     const auto plate = make_plate(3);
     const auto u     = interpolate(*plate, plate_displacement);
-    VtuOutput  output;
+    VtuOutput  output({FieldFormat::vtu, 1, 0});
     const auto write = [&](const std::string &into, const unsigned counter) {
       output.write(*plate,
                    section(),
@@ -477,6 +477,20 @@ namespace
     report(!root || (offsets != std::string::npos &&
                      vtu[vtu.find('\n', offsets) + 1] != '\n'),
            "cells of the .vtu");
+
+    // A group of ranks shares a file.
+    VtuOutput()
+      .write(*plate, section(), MembraneStrain::tied, u, folder, "shared", 0);
+    const std::string shared   = contents(folder + "/shared_0.vtu");
+    unsigned int      n_pieces = 0;
+    for (auto at = shared.find("<Piece"); at != std::string::npos;
+         at      = shared.find("<Piece", at + 1))
+      ++n_pieces;
+    report(!root ||
+             (n_pieces == Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) &&
+              !is_there("shared_0.pvtu") &&
+              shared.find("</VTKFile>") != std::string::npos),
+           "one file for all ranks");
 
     // A file where a folder should be.
     if (root)

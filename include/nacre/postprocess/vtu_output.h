@@ -57,12 +57,14 @@ namespace Nacre
      * @param kinematics the membrane strains are tied unless they are `full`
      * @param displacement ghosted (length)
      * @param error_indicators by active cell index, if any
+     * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
      */
     ShellFields(const Discretization                &discretization,
                 const SectionLaw                    &section,
                 const KinematicsOptions             &kinematics,
                 const TrilinosWrappers::MPI::Vector &displacement,
-                const std::vector<double>           &error_indicators = {});
+                const std::vector<double>           &error_indicators = {},
+                const unsigned int                   n_subdivisions   = 0);
 
     /**
      * One patch for each of this rank's cells; data[component][point], points
@@ -83,20 +85,53 @@ namespace Nacre
     std::vector<Patch> patches_;
   };
 
+  /** Kinds of files for the fields. */
+  enum class FieldFormat
+  {
+    vtu,
+    hdf5
+  };
+
   /**
-   * Writes ShellFields as VTU files with higher-order cells, one time step per
-   * solve. In ParaView open the .pvd (or one .vtu or .pvtu) and use
-   * "Warp By Vector" with the displacement.
+   * What has been written for each counter: its time, and the file or the
+   * piece of XML that the list of all times shows.
+   */
+  using FieldRecords = std::map<unsigned int, std::pair<double, std::string>>;
+
+  /**
+   * Writes ShellFields, one time step per solve or per step of a path.
+   *
+   * | format | cells | files | list of times |
+   * |---|---|---|---|
+   * | vtu | higher-order | `NAME_COUNTER.vtu`, or `NAME_COUNTER.GROUP.vtu` for
+   * each group of ranks that owns cells, and `NAME_COUNTER.pvtu` | `NAME.pvd` |
+   * | hdf5 | linear, p x p for each | `NAME_COUNTER.h5` | `NAME.xdmf` |
+   *
+   * In ParaView open the list and use "Warp By Vector" with the displacement.
    */
   class VtuOutput
   {
   public:
+    struct Options
+    {
+      FieldFormat format = FieldFormat::vtu;
+      /** The ranks of a group, whose cells share a .vtu. */
+      unsigned int ranks_per_file = 16;
+      /** Of each quadrilateral's edges; 0: the degree p. */
+      unsigned int n_subdivisions = 0;
+    };
+
+    VtuOutput() = default;
+
+    explicit VtuOutput(const Options &options)
+      : options_(options)
+    {}
+
     /**
-     * Write `NAME_COUNTER.vtu` into @p folder, which is created if it is
-     * missing; on several ranks `NAME_COUNTER.RANK.vtu` of those that own
-     * cells and `NAME_COUNTER.pvtu`. Then `NAME.pvd` lists all counters
-     * written so far by this object. Collective; throws on all ranks an
-     * ExcMessage that names the folder or file if one can't be written.
+     * Write the files of @p counter into @p folder, which is created if it is
+     * missing, and the list of all counters written so far by this object.
+     * Collective; throws on all ranks an ExcMessage that names the folder or
+     * file if one can't be written.
      */
     void
     write(const Discretization                &discretization,
@@ -119,7 +154,7 @@ namespace Nacre
             error_indicators);
     }
 
-    /** The same with the @p time that the .pvd tells of. */
+    /** The same with the @p time that the list tells of. */
     void
     write(const Discretization                &discretization,
           const SectionLaw                    &section,
@@ -131,18 +166,20 @@ namespace Nacre
           const double                         time,
           const std::vector<double>           &error_indicators = {});
 
-    /** Go on with a .pvd of the counters and times @p written already. */
+    /** What has been written under this name. */
+    const FieldRecords &
+    records(const std::string &folder, const std::string &name);
+
+    /** Go on with the list of what an earlier run has @p written. */
     void
-    resume(const std::string                    &folder,
-           const std::string                    &name,
-           const std::map<unsigned int, double> &written,
-           const unsigned int                    n_ranks);
+    resume(const std::string  &folder,
+           const std::string  &name,
+           const FieldRecords &written);
 
   private:
-    /** For each .pvd: time and file of each counter. */
-    std::map<std::string,
-             std::map<unsigned int, std::pair<double, std::string>>>
-      records_;
+    const Options options_;
+    /** By folder and name. */
+    std::map<std::string, FieldRecords> records_;
   };
 } // namespace Nacre
 

@@ -5,18 +5,20 @@
 #define nacre_simulation_checkpoint_h
 
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/postprocess/vtu_output.h>
 
-#include <map>
 #include <string>
 
 namespace Nacre
 {
+  class Discretization;
+
   /** What a checkpoint holds. */
   struct CheckpointData
   {
     PathState state;
-    /** Step and time of the fields written so far. */
-    std::map<unsigned int, double> written_fields;
+    /** The fields written so far, by their step. */
+    FieldRecords written_fields;
   };
 
   /**
@@ -24,25 +26,33 @@ namespace Nacre
    * then, in one stroke, the name of the new slot in `NAME.checkpoint`: whoever
    * is killed at any moment finds the last complete one. Numbers are kept bit
    * for bit.
+   *
+   * A rank's file holds the values of the nodes of its cells, cell by cell
+   * under the cell's CellId, which no partition changes: any number of ranks
+   * can go on from it. Cells are dealt out along a curve, so that a rank finds
+   * its cells in a few neighbouring files and reads no others.
    */
   class Checkpoint
   {
   public:
     /**
+     * @param discretization of all states
      * @param base_name folder and name of the run's files
-     * @param problem words that tell this problem from any other
+     * @param problem words that tell this problem from any other, the same on
+     *   any number of ranks
      */
-    Checkpoint(const MPI_Comm     communicator,
-               const std::string &base_name,
-               const std::string &problem);
+    Checkpoint(const Discretization &discretization,
+               const std::string    &base_name,
+               const std::string    &problem);
 
     /** Collective; throws on all ranks if a file can't be written. */
     void
     save(const CheckpointData &data);
 
     /**
-     * Fill @p data, whose vectors have their distribution already. Throws if
-     * there is no checkpoint, or one of another problem or number of ranks.
+     * Fill @p data, whose vectors have their distribution already, on any
+     * number of ranks. Throws on all ranks if there is no checkpoint, or one of
+     * another problem or mesh. Collective.
      */
     void
     load(CheckpointData &data);
@@ -52,15 +62,32 @@ namespace Nacre
     remove() const;
 
   private:
+    class CellValues;
+
     std::string
     slot_file(const unsigned int slot, const unsigned int rank) const;
 
-    const MPI_Comm     communicator_;
-    const std::string  base_name_;
-    const std::string  problem_;
-    const unsigned int rank_;
-    const unsigned int n_ranks_;
-    unsigned int       slot_ = 0;
+    /** The record of the last complete slot; sets slot_. */
+    void
+    read_record(unsigned int &n_writers);
+
+    /** Read one file; throws ExcMessage. */
+    void
+    read_file(const unsigned int writer,
+              CheckpointData    &data,
+              CellValues        &values) const;
+
+    /** Remove the files of the ranks from @p first on. */
+    void
+    remove_slot(const unsigned int slot, const unsigned int first) const;
+
+    const Discretization &discretization_;
+    const MPI_Comm        communicator_;
+    const std::string     base_name_;
+    const std::string     problem_;
+    const unsigned int    rank_;
+    const unsigned int    n_ranks_;
+    unsigned int          slot_ = 0;
   };
 } // namespace Nacre
 

@@ -7,6 +7,7 @@
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/results_table.h>
+#include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/adaptive_refinement.h>
 #include <nacre/simulation/shell_problem.h>
 
@@ -19,7 +20,6 @@
 namespace Nacre
 {
   class Log;
-  class VtuOutput;
 
   /**
    * What a parameter file describes: a shell and the lists of degrees,
@@ -100,6 +100,9 @@ namespace Nacre
     std::string
     progress_line(const ResultsTable::Row &row) const;
 
+    VtuOutput::Options
+    field_options() const;
+
     const MPI_Comm communicator_;
     Heading        heading_;
 
@@ -111,6 +114,9 @@ namespace Nacre
     std::vector<unsigned int> refinements_    = {0};
     bool                      write_vtu_      = true;
     bool                      report_seconds_ = true;
+    std::string               field_format_   = "vtu";
+    unsigned int              ranks_per_file_ = 16;
+    unsigned int              n_subdivisions_ = 0;
 
     ShellProblem         problem_;
     QuantitiesOfInterest quantities_;

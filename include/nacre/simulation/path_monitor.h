@@ -27,13 +27,14 @@ namespace Nacre
   public:
     struct Options
     {
-      std::string  folder;
-      std::string  name;
-      bool         write_vtu;
-      bool         report_seconds;
-      unsigned int vtu_steps;
-      unsigned int checkpoint_steps;
-      double       end_time;
+      std::string        folder;
+      std::string        name;
+      VtuOutput::Options fields;
+      bool               write_vtu;
+      bool               report_seconds;
+      unsigned int       vtu_steps;
+      unsigned int       checkpoint_steps;
+      double             end_time;
     };
 
     PathMonitor(const MPI_Comm              communicator,
