@@ -408,8 +408,8 @@ namespace Nacre
                            const SectionLaw                    &section,
                            const KinematicsOptions             &kinematics,
                            const TrilinosWrappers::MPI::Vector &displacement,
-                           const unsigned int                   n_subdivisions,
-                           const std::vector<double> &error_indicators)
+                           const std::vector<double> &error_indicators,
+                           const unsigned int         n_subdivisions)
     : has_error_indicators_(!error_indicators.empty())
   {
     const bool triangles =
@@ -538,8 +538,8 @@ namespace Nacre
                                              section,
                                              kinematics,
                                              ghosted_displacement,
-                                             options_.n_subdivisions,
-                                             error_indicators);
+                                             error_indicators,
+                                             options_.n_subdivisions);
     });
     const std::string base    = name + "_" + std::to_string(counter);
     const std::string all     = path_of(folder, name);

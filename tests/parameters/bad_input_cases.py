@@ -57,6 +57,16 @@ def case(name, expect, settings=None, change=None, prm=BASE, args=(),
                        code=code)
 
 
+# --- Linear solver ---------------------------------------------------------
+case("solver_unknown", ["Linear solver", "Solver", "fast", "multigrid"],
+     {"Linear solver/Solver": "fast"})
+case("solver_no_iterations", ["Linear solver", "Max iterations", "0"],
+     {"Linear solver/Max iterations": "0"})
+case("solver_multigrid_dynamic",
+     ["Linear solver/Solver", "'multigrid'", "dynamic", "auto or direct"],
+     {"Linear solver/Solver": "multigrid", "Analysis/Type": "dynamic",
+      "Section/Density": "1"})
+
 # --- Analysis --------------------------------------------------------------
 case("analysis_type", ["Type", "quasistatic", "static"],
      {"Analysis/Type": "quasistatic"})

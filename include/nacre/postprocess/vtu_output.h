@@ -56,15 +56,15 @@ namespace Nacre
     /**
      * @param kinematics the membrane strains are tied unless they are `full`
      * @param displacement ghosted (length)
-     * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
      * @param error_indicators by active cell index, if any
+     * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
      */
     ShellFields(const Discretization                &discretization,
                 const SectionLaw                    &section,
                 const KinematicsOptions             &kinematics,
                 const TrilinosWrappers::MPI::Vector &displacement,
-                const unsigned int                   n_subdivisions   = 0,
-                const std::vector<double>           &error_indicators = {});
+                const std::vector<double>           &error_indicators = {},
+                const unsigned int                   n_subdivisions   = 0);
 
     /**
      * One patch for each of this rank's cells; data[component][point], points

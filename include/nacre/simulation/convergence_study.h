@@ -20,7 +20,6 @@
 namespace Nacre
 {
   class Log;
-  class VtuOutput;
 
   /**
    * What a parameter file describes: a shell and the lists of degrees,

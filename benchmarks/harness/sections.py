@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""What is measured: each function is a section of benchmarks/run."""
+
+import tempfile
+
+from calculix import PROBLEMS, CalculiX
+from runs import RunError, build_empty_program, find_calculix, measure, seconds
+
+# Seconds to 1 % and 0.1 % of other codes on one core of an Intel Xeon at
+# 2.1 GHz, as the project was given them; not measured here.
+GIVEN = {
+    "scordelis_lo": {"gsKLShell (given)": (.014, .017),
+                     "CalculiX S8R (given)": (.010, None),
+                     "CalculiX S8 (given)": (.047, None)},
+    "pinched_cylinder": {"gsKLShell (given)": (.23, 1.94),
+                         "CalculiX S8R (given)": (None, None),
+                         "CalculiX S8 (given)": (None, None)},
+    "hemisphere_hole": {"gsKLShell (given)": (.053, .19),
+                        "CalculiX S8R (given)": (.030, None),
+                        "CalculiX S8 (given)": (1.0, 2.2)}}
+GRADED = {"Mid-surface/Grading u": "s^2", "Mid-surface/Grading v": "s^2"}
+
+
+class Context:
+    """What all sections share."""
+
+    def __init__(self, nacre, report, repeat, quick):
+        self.nacre = nacre
+        self.report = report
+        self.repeat = 1 if quick else repeat
+        self.quick = quick
+
+    def settings(self, degree, n, refinements, solver="direct", **more):
+        """Those of n x n coarse cells."""
+        result = {"Study/Degrees": degree,
+                  "Mid-surface/Subdivisions": f"{n}, {n}",
+                  "Study/Refinements": ", ".join(str(r) for r in refinements)}
+        result.update(self.nacre.solver_setting(solver))
+        result.update(more)
+        return result
+
+    def say(self, text):
+        print(text, flush=True)
+
+    def solvers(self):
+        return ["direct", "multigrid"] if self.nacre.has_solvers else ["direct"]
+
+
+# --- error against seconds ----------------------------------------------------
+
+def time_to(rows, limit):
+    """Seconds of the coarsest mesh from which on all errors stay below."""
+    good = None
+    for row in sorted(rows, key=lambda row: -row["dofs"]):
+        if row["error"] > limit:
+            break
+        good = row["cpu_s"] if good is None else min(good, row["cpu_s"])
+    return good
+
+
+def nacre_series(context, problem, degree, solver, more):
+    """Rows of meshes from 2 x 2 on."""
+    # From 2 x 2 and from 3 x 3 cells on, each refined; multigrid needs that.
+    if context.quick:
+        families = ((4, (0, 1)),)
+    elif solver == "multigrid":
+        families = ((4, (2, 3, 4)), (6, (2, 3)))
+    else:
+        families = ((2, (0, 1, 2, 3, 4)), (3, (0, 1, 2, 3)), (5, (0, 1, 2)),
+                    (7, (0, 1)))
+    result = []
+    for n, refinements in families:
+        rows, _ = context.nacre.best(
+            f"benchmarks/{problem}.prm",
+            context.settings(degree, n, refinements, solver, **more),
+            context.repeat)
+        for row, r in zip(rows, refinements):
+            result.append({"n": n * 2 ** r, "dofs": row["dofs"],
+                           "error": abs(row["ratio"] - 1.),
+                           "cpu_s": seconds(row)})
+    return sorted(result, key=lambda row: row["dofs"])
+
+
+def peers(context):
+    """error against CPU seconds, beside CalculiX where it is installed"""
+    calculix = find_calculix()
+    calculix = CalculiX(calculix, context.repeat) if calculix else None
+    if calculix is None:
+        context.say("CalculiX isn't installed (Debian: calculix-ccx); "
+                    "its columns stay away.")
+    rows, table, panels = [], [], {}
+    for problem in (["scordelis_lo"] if context.quick else PROBLEMS):
+        series = {}
+        for solver in context.solvers():
+            for degree in ((3,) if context.quick else (2, 3, 4)):
+                series[f"p = {degree}, {solver}"] = nacre_series(
+                    context, problem, degree, solver, {})
+        if problem == "pinched_cylinder":
+            for degree in (3, 4):
+                series[f"p = {degree}, direct, graded"] = nacre_series(
+                    context, problem, degree, "direct", GRADED)
+        if calculix is not None:
+            for element in ("S8R", "S8"):
+                series[f"CalculiX {element}"] = [
+                    calculix.row(problem, n, element)
+                    for n in ((2, 4) if context.quick else
+                              (2, 4, 8, 16, 32, 64))]
+        panels[problem.replace("_", " ")] = {
+            label: ([row["cpu_s"] for row in one],
+                    [row["error"] for row in one])
+            for label, one in series.items()}
+        for label, one in series.items():
+            rows += [dict(row, problem=problem, series=label) for row in one]
+            table.append({"problem": problem, "series": label,
+                          "to 1 %, s": time_to(one, 1e-2) or "-",
+                          "to 0.1 %, s": time_to(one, 1e-3) or "-"})
+        for label, (one, tenth) in GIVEN[problem].items():
+            table.append({"problem": problem, "series": label,
+                          "to 1 %, s": one or "-", "to 0.1 %, s": tenth or "-"})
+    context.report.table(
+        "peers", "Error against CPU seconds: all meshes",
+        ["problem", "series", "n", "dofs", "error", "cpu_s"], rows,
+        ["n x n cells on the symmetric part; error: |w / w_KL - 1|",
+         "cpu_s: data structures, assembly and solve on one rank, without the "
+         "start of the process: nacre's own columns, the least of "
+         f"{context.repeat} runs; CalculiX' CPU seconds less those of a deck "
+         "of one element"], name="meshes")
+    context.report.table(
+        "peers", "CPU seconds to an error of 1 % and 0.1 %",
+        ["problem", "series", "to 1 %, s", "to 0.1 %, s"], table,
+        ["of the coarsest mesh from which on the errors of the series stay "
+         "below; -: never. 'given': values that were not measured here"])
+    context.report.plot("peers", panels, "CPU seconds",
+                        "relative error of the displacement")
+
+
+# --- parts of a run -----------------------------------------------------------
+
+def assembly(context):
+    """microseconds of assembly per cell"""
+    rows = []
+    for degree in (2, 3, 4):
+        for n in ((8,) if context.quick else (32, 64)):
+            row = context.nacre.best(
+                "benchmarks/scordelis_lo.prm",
+                context.settings(degree, n, (0,)), context.repeat)[0][0]
+            rows.append({"p": degree, "cells": row["cells"],
+                         "dofs": row["dofs"],
+                         "microseconds per cell":
+                         1e6 * row["assembly_s"] / row["cells"],
+                         "set-up, microseconds per cell":
+                         1e6 * row["setup_s"] / row["cells"]})
+    context.report.table(
+        "assembly", "Assembly of a curved surface, edges included, one rank",
+        list(rows[0]), rows, [f"the least of {context.repeat} runs"])
+
+
+def solver_rows(context, solver, cases):
+    rows = []
+    for degree, n, refinements in cases:
+        row = context.nacre.best(
+            "benchmarks/scordelis_lo.prm",
+            context.settings(degree, n, (refinements,), solver),
+            context.repeat)[0][0]
+        rows.append({"p": degree, "dofs": row["dofs"],
+                     "iterations": row.get("iterations", ""),
+                     "set-up s": row["setup_s"],
+                     "assembly s": row["assembly_s"],
+                     "solve s": row["solve_s"], "sum s": seconds(row),
+                     "microseconds per dof": 1e6 * seconds(row) / row["dofs"],
+                     "peak GB": row.get("memory_gb", "")})
+    return rows
+
+
+def direct(context):
+    """the direct solver: seconds and memory"""
+    cases = [(3, 8, 0)] if context.quick else [
+        (2, 64, 0), (2, 128, 0), (3, 32, 0), (3, 64, 0), (4, 32, 0),
+        (4, 48, 0)]
+    rows = solver_rows(context, "direct", cases)
+    context.report.table(
+        "direct", "Direct solver, Scordelis-Lo roof, one rank", list(rows[0]),
+        rows, ["peak GB: of the whole program, the system's pages included"])
+
+
+def multigrid(context):
+    """the multilevel solver: iterations, seconds and memory"""
+    if "multigrid" not in context.solvers():
+        context.say("This nacre has no multigrid.")
+        return
+    cases = [(3, 2, 2)] if context.quick else [
+        (2, 4, 4), (2, 4, 5), (3, 4, 3), (3, 4, 4), (3, 4, 5), (3, 6, 5),
+        (4, 4, 4)]
+    rows = solver_rows(context, "multigrid", cases)
+    context.report.table(
+        "multigrid", "Multigrid, Scordelis-Lo roof, one rank", list(rows[0]),
+        rows, ["solve s: levels, smoothers and iterations"])
+    thin = {"scordelis_lo": 0.25, "pinched_cylinder": 3.,
+            "hemisphere_hole": 0.04}
+    rows = []
+    for problem in (["scordelis_lo"] if context.quick else PROBLEMS):
+        for degree in ((3,) if context.quick else (2, 3, 4)):
+            for factor in ((1,) if context.quick else (1, 0.1)):
+                r = 2 if context.quick else {2: 5, 3: 4, 4: 4}[degree]
+                row = context.nacre.run(
+                    f"benchmarks/{problem}.prm",
+                    context.settings(degree, 4, (r,), "multigrid", **{
+                        "Section/Thickness": thin[problem] * factor}))[0][0]
+                rows.append({"problem": problem, "p": degree,
+                             "thickness": thin[problem] * factor,
+                             "dofs": row["dofs"], "solver": row["solver"],
+                             "iterations": row["iterations"]})
+    context.report.table(
+        "multigrid", "Iterations of multigrid", list(rows[0]), rows,
+        ["solver 'direct': multigrid gave up and the direct solver took over"],
+        name="iterations")
+
+
+# --- several ranks ------------------------------------------------------------
+
+def ranks_row(context, kind, solver, degree, n, refinements, ranks):
+    """One run; parts in CPU seconds over ranks, which MPI spends waiting."""
+    rows, wall = context.nacre.best(
+        "benchmarks/scordelis_lo.prm",
+        context.settings(degree, n, (refinements,), solver), context.repeat,
+        ranks)
+    # The same with 16 cells: start of the program and of MPI.
+    _, start = context.nacre.best("benchmarks/scordelis_lo.prm",
+                                  context.settings(2, 4, (0,)),
+                                  context.repeat, ranks)
+    row = rows[0]
+    return {"scaling": kind, "solver": solver, "ranks": ranks,
+            "dofs": row["dofs"], "iterations": row.get("iterations", ""),
+            "set-up s": row["setup_s"] / ranks,
+            "assembly s": row["assembly_s"] / ranks,
+            "solve s": row["solve_s"] / ranks, "wall s": wall - start,
+            "peak GB": row.get("memory_gb", "")}
+
+
+def add_speed_ups(rows):
+    """Against one rank of the same kind and solver."""
+    for row in rows:
+        one = next(other for other in rows if other["ranks"] == 1 and
+                   other["scaling"] == row["scaling"] and
+                   other["solver"] == row["solver"])
+        factor = 1. if row["scaling"] == "strong" else \
+            row["dofs"] / one["dofs"]
+        for part in ("assembly", "wall"):
+            row[f"{part}, times"] = factor * one[f"{part} s"] / \
+                max(row[f"{part} s"], 1e-6)
+
+
+def scaling(context):
+    """strong and weak scaling; iterations on more ranks than cores"""
+    rows = []
+    for solver in context.solvers():
+        # p = 3: 201 243 dofs; 101 835 dofs a rank
+        n, r = (4, 1) if context.quick else (43, 1)
+        if solver == "multigrid" and not context.quick:
+            n, r = 11, 3
+        for ranks in (1, 2):
+            rows.append(ranks_row(context, "strong", solver, 3, n, r, ranks))
+        half = {1: 4, 2: 6} if context.quick else {1: 61, 2: 86}
+        if solver == "multigrid" and not context.quick:
+            half = {1: 8, 2: 11}
+        for ranks in (1, 2):
+            rows.append(ranks_row(context, "weak", solver, 3, half[ranks],
+                                  r if solver == "multigrid" else 0, ranks))
+    add_speed_ups(rows)
+    context.report.table(
+        "scaling", "One rank and two, Scordelis-Lo roof, p = 3",
+        list(rows[0]), rows,
+        ["wall s: of the whole program, less that of a run with 16 cells",
+         "parts: CPU seconds of all ranks over their number; ranks that wait "
+         "compute nothing but count",
+         "times: how many times faster than one rank, for the same work"])
+    if "multigrid" not in context.solvers():
+        return
+    rows = []
+    for ranks in ((1, 2) if context.quick else (1, 2, 4, 8)):
+        row = context.nacre.run(
+            "benchmarks/scordelis_lo.prm",
+            context.settings(3, 4, (2 if context.quick else 4,), "multigrid"),
+            ranks)[0][0]
+        rows.append({"ranks": ranks, "dofs": row["dofs"],
+                     "iterations": row["iterations"],
+                     "ratio": f"{row['ratio']:.9f}"})
+    context.report.table(
+        "scaling", "Iterations of multigrid on several ranks", list(rows[0]),
+        rows, ["more ranks than cores: no times"], name="iterations")
+
+
+# --- adaptive refinement ------------------------------------------------------
+
+def adaptive(context):
+    """uniform and adaptive refinement: error against dofs and seconds"""
+    if not context.nacre.has_adaptivity:
+        context.say("This nacre has no adaptive refinement.")
+        return
+    rows, panels = [], {}
+    for problem in ("adaptive_pinched_cylinder", "adaptive_hemisphere"):
+        for degree in ((2,) if context.quick else (2, 3)):
+            for how in ("adaptive", "uniform"):
+                more = {"Study/Degrees": degree}
+                if how == "uniform":
+                    more.update({"Adaptive refinement/Marking":
+                                 "fixed fraction",
+                                 "Adaptive refinement/Fraction": 1})
+                if context.quick:
+                    more["Adaptive refinement/Max dofs"] = 500
+                found = context.nacre.run(f"benchmarks/{problem}.prm", more)[0]
+                total = 0.
+                for row in found:
+                    # All meshes up to this one are part of the price.
+                    total += seconds(row) + (row.get("estimate_s") or 0.)
+                    rows.append({"problem": problem, "p": degree,
+                                 "refinement": how, "dofs": row["dofs"],
+                                 "error": abs(row["ratio"] - 1.),
+                                 "cpu_s": seconds(row),
+                                 "cpu_s of all meshes": total})
+                chosen = rows[-len(found):]
+                panels.setdefault(problem.replace("_", " "), {})[
+                    f"p = {degree}, {how}"] = (
+                        [row["dofs"] for row in chosen],
+                        [row["error"] for row in chosen])
+    context.report.table("adaptive", "Uniform and adaptive refinement",
+                         list(rows[0]), rows,
+                         ["error: |w / w_KL - 1| under the force"])
+    context.report.plot("adaptive", panels, "degrees of freedom",
+                        "relative error of the displacement")
+
+
+# --- start --------------------------------------------------------------------
+
+def startup(context):
+    """wall time of a tiny problem above an empty deal.II program"""
+    repeat = 2 if context.quick else 15
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            empty = build_empty_program(folder)
+        except RunError as error:
+            context.say(f"The empty program can't be built: {error}")
+            return
+        nothing = min(measure([empty], folder).wall for _ in range(repeat))
+        tiny = min(context.nacre.run(
+            "benchmarks/scordelis_lo.prm",
+            context.settings(2, 2, (0,)))[1].wall for _ in range(repeat))
+    rows = [{"program": "an empty deal.II MPI program", "wall s": nothing},
+            {"program": "nacre, 4 cells", "wall s": tiny},
+            {"program": "difference", "wall s": tiny - nothing}]
+    context.report.table("startup", "What a run costs before it computes",
+                         list(rows[0]), rows,
+                         [f"one rank, the least of {repeat} runs"])
+
+
+SECTIONS = {function.__name__: function
+            for function in (peers, assembly, direct, multigrid, scaling,
+                             adaptive, startup)}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/discretization.h>
+#include <nacre/simulation/memory_estimate.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace Nacre
+{
+  namespace
+  {
+    constexpr double giga = 1e9;
+
+    /** Measured: doc/parallel.md tells how to repeat it. */
+    constexpr double bytes_of_program = 0.16e9;
+    /** For each node of each cell: geometry, numbers, constraints. */
+    constexpr double bytes_per_cell_node = 500.;
+    /** 8 for the number, 4 for its column, 4 in the pattern. */
+    constexpr double bytes_per_entry = 16.;
+    /** Of the direct solver: bytes / (N log2 N), by degree from 2. */
+    constexpr double bytes_of_factors[] = {480., 650., 750., 850.};
+    /** Levels, prolongations, patches: bytes / N by degree from 2. */
+    constexpr double bytes_of_levels[] = {3000., 3500., 5500., 8000.};
+
+    std::string
+    in_gigabytes(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << value;
+      return text.str();
+    }
+  } // namespace
+
+  double
+  entries_per_row(const unsigned int degree)
+  {
+    const double p = degree;
+    // Nodes of a cell and its four neighbours, of the eight cells around an
+    // edge and of the twelve around a vertex.
+    const double of_cell   = (p + 1.) * (p + 1.) + 4. * (p + 1.) * p;
+    const double of_edge   = (2. * p + 1.) * (3. * p + 1.) + 2. * (p + 1.) * p;
+    const double of_vertex = (2. * p + 1.) * (2. * p + 1. + 4. * p);
+    // A cell's share of nodes: (p - 1)^2 inside, 2 (p - 1) on edges, a vertex.
+    return spacedim *
+           ((p - 1.) * (p - 1.) * of_cell + 2. * (p - 1.) * of_edge +
+            of_vertex) /
+           (p * p);
+  }
+
+  MemoryEstimate
+  estimate_memory(const types::global_dof_index n_dofs,
+                  const types::global_dof_index n_cells,
+                  const unsigned int            degree,
+                  const unsigned int            n_ranks,
+                  const SolverStorage           storage)
+  {
+    Assert(degree >= 2 && degree <= 5, ExcNotImplemented());
+    const double   n = n_dofs;
+    MemoryEstimate estimate;
+    estimate.program = n_ranks * bytes_of_program / giga;
+    estimate.mesh =
+      bytes_per_cell_node * n_cells * (degree + 1) * (degree + 1) / giga;
+    estimate.matrix = bytes_per_entry * entries_per_row(degree) * n / giga;
+    estimate.solver = (storage == SolverStorage::factors ?
+                         bytes_of_factors[degree - 2] * n * std::log2(n + 1.) :
+                         bytes_of_levels[degree - 2] * n) /
+                      giga;
+    return estimate;
+  }
+
+  MemoryEstimate
+  estimate_memory(const Discretization &discretization,
+                  const SolverStorage   storage)
+  {
+    return estimate_memory(
+      discretization.dof_handler().n_dofs(),
+      discretization.triangulation().n_global_active_cells(),
+      discretization.degree(),
+      Utilities::MPI::n_mpi_processes(discretization.communicator()),
+      storage);
+  }
+
+  std::string
+  MemoryEstimate::text(const SolverStorage storage) const
+  {
+    return in_gigabytes(total()) + " GB (program " + in_gigabytes(program) +
+           ", mesh " + in_gigabytes(mesh) + ", matrix " + in_gigabytes(matrix) +
+           (storage == SolverStorage::factors ? ", factors " : ", levels ") +
+           in_gigabytes(solver) + ")";
+  }
+
+  double
+  peak_memory(const MPI_Comm communicator)
+  {
+    Utilities::System::MemoryStats stats;
+    Utilities::System::get_memory_stats(stats);
+    // VmHWM in kB of 1024 bytes
+    return Utilities::MPI::sum(1024. * stats.VmHWM, communicator) / giga;
+  }
+
+  std::string
+  check_memory(const MemoryEstimate &estimate,
+               const SolverStorage   storage,
+               const double          available)
+  {
+    const std::string found = "The linear system takes about " +
+                              estimate.text(storage) + "; " +
+                              in_gigabytes(available) + " GB are free";
+    AssertThrow(estimate.total() <= 1.5 * available,
+                ExcMessage(found +
+                           ": use fewer refinements, a lower degree, "
+                           "'Linear solver/Solver = multigrid', or more "
+                           "machines."));
+    return estimate.total() > available ? found + "." : "";
+  }
+} // namespace Nacre
