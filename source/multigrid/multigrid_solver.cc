@@ -31,6 +31,20 @@ namespace Nacre
     {
       std::copy(from.begin(), from.end(), to.begin());
     }
+
+    PatchExtent
+    patch_extent(const Element &element)
+    {
+      return element.degree == 2 ? PatchExtent::closed_star :
+                                   PatchExtent::star;
+    }
+
+    /** Sweeps before and after each coarse correction. */
+    unsigned int
+    n_steps(const Element &element)
+    {
+      return element.type == ElementType::triangle ? 2 : 1;
+    }
   } // namespace
 
 
@@ -153,7 +167,10 @@ namespace Nacre
                                           *coarser.discretization,
                                           coarse_constraints);
         level.patches =
-          std::make_unique<VertexPatches>(*level.discretization, *constraints);
+          std::make_unique<VertexPatches>(*level.discretization,
+                                          *constraints,
+                                          patch_extent(
+                                            level.discretization->element()));
         coarser.shell_operator->reinit_matrix(coarse_constraints,
                                               coarser.own_matrix);
         constraints = &coarse_constraints;
@@ -213,7 +230,10 @@ namespace Nacre
         else
           {
             level.matrix.reinit(matrix, level.patches->foreign_dofs);
-            is_definite &= level.smoother.reinit(level.matrix, *level.patches);
+            is_definite &=
+              level.smoother.reinit(level.matrix,
+                                    *level.patches,
+                                    n_steps(level.discretization->element()));
           }
         for (Vector *vector : {&level.x, &level.b, &level.r})
           vector->reinit(level.matrix.partitioner());

@@ -52,9 +52,12 @@ namespace Nacre
 
 
   bool
-  PatchSmoother::reinit(const LevelMatrix &matrix, const VertexPatches &patches)
+  PatchSmoother::reinit(const LevelMatrix   &matrix,
+                        const VertexPatches &patches,
+                        const unsigned int   n_steps)
   {
-    matrix_                 = &matrix;
+    matrix_  = &matrix;
+    n_steps_ = n_steps;
     const auto &partitioner = *matrix.partitioner();
     position_.assign(matrix.n_local(), -1);
     scaling_.assign(matrix.n_local(), 0.);
@@ -93,16 +96,15 @@ namespace Nacre
     for (const auto *list : {&inner_, &border_})
       for (const Patch &patch : *list)
         is_definite = is_definite && invert(patch);
-    find_colours(patches);
+    find_colours();
     return Utilities::MPI::min(is_definite ? 1 : 0,
                                partitioner.get_mpi_communicator()) == 1;
   }
 
 
   void
-  PatchSmoother::find_colours(const VertexPatches &patches)
+  PatchSmoother::find_colours()
   {
-    (void)patches;
     const auto               &partitioner = *matrix_->partitioner();
     std::vector<unsigned int> neighbours;
     for (const auto &target : partitioner.ghost_targets())
@@ -114,11 +116,7 @@ namespace Nacre
     n_colours_ = colours.size() == 1 ?
                    0 :
                    1 + *std::max_element(colours.begin(), colours.end());
-    if (n_colours_ == 0)
-      {
-        // There is nobody to wait for.
-        Assert(border_.empty(), ExcInternalError());
-      }
+    Assert(n_colours_ > 0 || border_.empty(), ExcInternalError());
   }
 
 
@@ -227,19 +225,25 @@ namespace Nacre
   void
   PatchSmoother::forward(Vector &x, const Vector &b) const
   {
-    for (unsigned int colour = 0; colour < n_colours_; ++colour)
-      sweep_border(colour, false, x, b);
-    sweep(inner_, false, x, b);
-    x.update_ghost_values();
+    for (unsigned int step = 0; step < n_steps_; ++step)
+      {
+        for (unsigned int colour = 0; colour < n_colours_; ++colour)
+          sweep_border(colour, false, x, b);
+        sweep(inner_, false, x, b);
+        x.update_ghost_values();
+      }
   }
 
 
   void
   PatchSmoother::backward(Vector &x, const Vector &b) const
   {
-    sweep(inner_, true, x, b);
-    x.update_ghost_values();
-    for (unsigned int colour = n_colours_; colour-- > 0;)
-      sweep_border(colour, true, x, b);
+    for (unsigned int step = 0; step < n_steps_; ++step)
+      {
+        sweep(inner_, true, x, b);
+        x.update_ghost_values();
+        for (unsigned int colour = n_colours_; colour-- > 0;)
+          sweep_border(colour, true, x, b);
+      }
   }
 } // namespace Nacre

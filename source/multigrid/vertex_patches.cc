@@ -45,7 +45,8 @@ namespace Nacre
 
 
   VertexPatches::VertexPatches(const Discretization            &discretization,
-                               const AffineConstraints<double> &constraints)
+                               const AffineConstraints<double> &constraints,
+                               const PatchExtent                extent)
     : start(1, 0)
     , foreign_dofs(discretization.dof_handler().n_dofs())
   {
@@ -83,7 +84,10 @@ namespace Nacre
                 is_mine &= (cell->subdomain_id() >= me);
                 cell_dofs.resize(cell->get_fe().n_dofs_per_cell());
                 cell->get_dof_indices(cell_dofs);
-                add_dofs(cell, corner.vertex, cell_dofs, patch);
+                if (extent == PatchExtent::closed_star)
+                  patch.insert(patch.end(), cell_dofs.begin(), cell_dofs.end());
+                else
+                  add_dofs(cell, corner.vertex, cell_dofs, patch);
               }
             if (!is_mine)
               continue;

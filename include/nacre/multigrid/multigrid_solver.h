@@ -58,7 +58,7 @@ namespace Nacre
       /** Without convergence after as many iterations prepare for failure. */
       unsigned int max_iterations = 60;
       /** Coarsen until the number of dofs is at most this. */
-      unsigned int coarse_dofs = 4000;
+      unsigned int coarse_dofs = 30000;
     };
 
     /** Build the levels of @p fine; collective. */

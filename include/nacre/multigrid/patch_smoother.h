@@ -34,18 +34,21 @@ namespace Nacre
      * Invert the patches' matrices. @p matrix must keep the rows of all dofs
      * of @p patches; both must stay alive. Returns whether all are positive
      * definite. Collective.
+     * @param n_steps sweeps of forward() and backward()
      */
     bool
-    reinit(const LevelMatrix &matrix, const VertexPatches &patches);
+    reinit(const LevelMatrix   &matrix,
+           const VertexPatches &patches,
+           const unsigned int   n_steps);
 
-    /** Sweep from the first patch to the last. Collective. */
+    /**
+     * Sweep from the first patch to the last. The ghosts of @p x and @p b must
+     * be up to date; those of x are so afterwards. Collective.
+     */
     void
     forward(Vector &x, const Vector &b) const;
 
-    /**
-     * Sweep from the last patch to the first. The ghosts of @p b, and of @p x
-     * before, must be up to date; those of x are so afterwards.
-     */
+    /** Sweep from the last patch to the first, as forward(). */
     void
     backward(Vector &x, const Vector &b) const;
 
@@ -67,7 +70,7 @@ namespace Nacre
     extract(const Patch &patch);
 
     void
-    find_colours(const VertexPatches &patches);
+    find_colours();
 
     void
     relax(const Patch &patch, double *x, const double *b) const;
@@ -85,7 +88,8 @@ namespace Nacre
           Vector                   &x,
           const Vector             &b) const;
 
-    const LevelMatrix *matrix_ = nullptr;
+    const LevelMatrix *matrix_  = nullptr;
+    unsigned int       n_steps_ = 1;
     std::vector<Patch> inner_;
     std::vector<Patch> border_;
     unsigned int       n_colours_ = 0;

@@ -22,12 +22,24 @@ namespace Nacre
 {
   class Discretization;
 
+  /** Which dofs of the cells around a vertex its patch takes. */
+  enum class PatchExtent
+  {
+    /**
+     * Those at the vertex, on the lines that end there and inside the cells:
+     * the functions that vanish outside the cells.
+     */
+    star,
+    /**
+     * All: those on the outer lines, too. At degree 2 the star holds too few
+     * functions, the iterations are half as many with these.
+     */
+    closed_star
+  };
+
   /**
-   * The dofs of overlapping patches around vertices: for each vertex the
-   * unconstrained dofs at the vertex, on the lines that end there and inside
-   * the cells around it. These are the functions that vanish outside the star
-   * of the vertex: on a mesh without hanging nodes they hold all bending
-   * functions of compact support. Each unconstrained dof is in some patch.
+   * The unconstrained dofs of overlapping patches, one for each vertex. Each
+   * unconstrained dof is in some patch.
    *
    * A patch belongs to the lowest rank that owns one of its cells, and is
    * listed in the order of the cells.
@@ -35,7 +47,8 @@ namespace Nacre
   struct VertexPatches
   {
     VertexPatches(const Discretization            &discretization,
-                  const AffineConstraints<double> &constraints);
+                  const AffineConstraints<double> &constraints,
+                  const PatchExtent                extent);
 
     unsigned int
     size() const
