@@ -327,12 +327,15 @@ namespace Nacre
   std::vector<ResultsTable::Column>
   ResultsTable::solver_columns() const
   {
-    std::vector<Column> columns = {{"solver", {}, true}, {"iterations", {}}};
+    std::vector<Column> columns = {{"solver", {}, true},
+                                   {"iterations", {}},
+                                   {"memory_gb", {}}};
     for (const Row &row : rows_)
       {
         columns[0].cells.push_back(row.solver);
         columns[1].cells.push_back(
           row.iterations > 0 ? std::to_string(row.iterations) : "");
+        columns[2].cells.push_back(number(row.memory_gb, 4));
       }
     return columns;
   }

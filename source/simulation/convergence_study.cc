@@ -10,6 +10,7 @@
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/checkpoint.h>
 #include <nacre/simulation/convergence_study.h>
+#include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/path_monitor.h>
 
 #include <cmath>
@@ -229,6 +230,7 @@ namespace Nacre
     row.solve_s          = problem_.times().solve;
     row.solver           = problem_.solver_record().name;
     row.iterations       = problem_.solver_record().n_iterations;
+    row.memory_gb        = peak_memory(communicator_);
     for (const auto &quantity : quantities_.quantities())
       {
         row.values.push_back(quantity.evaluate(shell));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/log.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/simulation/memory_estimate.h>
 
@@ -17,13 +18,13 @@ namespace Nacre
     constexpr double giga = 1e9;
 
     /** Measured: doc/parallel.md tells how to repeat it. */
-    constexpr double bytes_of_program = 0.16e9;
+    constexpr double bytes_of_program = 0.18e9;
     /** For each node of each cell: geometry, numbers, constraints. */
     constexpr double bytes_per_cell_node = 500.;
     /** 8 for the number, 4 for its column, 4 in the pattern. */
     constexpr double bytes_per_entry = 16.;
     /** Of the direct solver: bytes / (N log2 N), by degree from 2. */
-    constexpr double bytes_of_factors[] = {480., 650., 750., 850.};
+    constexpr double bytes_of_factors[] = {440., 780., 1060., 1350.};
     /** Levels, prolongations, patches: bytes / N by degree from 2. */
     constexpr double bytes_of_levels[] = {3000., 3500., 5500., 8000.};
 
@@ -103,13 +104,21 @@ namespace Nacre
     return Utilities::MPI::sum(1024. * stats.VmHWM, communicator) / giga;
   }
 
+  double
+  used_memory(const MPI_Comm communicator)
+  {
+    Utilities::System::MemoryStats stats;
+    Utilities::System::get_memory_stats(stats);
+    return Utilities::MPI::sum(1024. * stats.VmRSS, communicator) / giga;
+  }
+
   std::string
   check_memory(const MemoryEstimate &estimate,
                const SolverStorage   storage,
                const double          available)
   {
     const std::string found = "The linear system takes about " +
-                              estimate.text(storage) + "; " +
+                              estimate.text(storage) + " of memory; " +
                               in_gigabytes(available) + " GB are free";
     AssertThrow(estimate.total() <= 1.5 * available,
                 ExcMessage(found +
@@ -117,5 +126,23 @@ namespace Nacre
                            "'Linear solver/Solver = multigrid', or more "
                            "machines."));
     return estimate.total() > available ? found + "." : "";
+  }
+
+  void
+  report_memory(const Discretization &discretization,
+                const SolverStorage   storage,
+                const double          free,
+                Log                  &log)
+  {
+    const auto estimate = estimate_memory(discretization, storage);
+    if (estimate.total() >= 0.3)
+      log.progress() << "memory: about " << estimate.text(storage) << std::endl;
+    // Part of the estimate is in use already.
+    const std::string warning =
+      check_memory(estimate,
+                   storage,
+                   free + used_memory(discretization.communicator()));
+    if (!warning.empty())
+      log.warning(warning);
   }
 } // namespace Nacre

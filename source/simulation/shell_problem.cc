@@ -8,6 +8,7 @@
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/chosen_solver.h>
+#include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <deal.II/base/timer.h>
@@ -249,6 +250,11 @@ namespace Nacre
                                                 case_.eta);
     warn_of_penalty(log);
     make_solver(log);
+    report_memory(*discretization_,
+                  solver_->name() == "direct" ? SolverStorage::factors :
+                                                SolverStorage::multigrid,
+                  free_memory(communicator_),
+                  log);
     timer.stop();
     times_.setup = timer.cpu_time();
   }

@@ -61,6 +61,8 @@ namespace Nacre
       /** The linear solver, and its iterations if it is an iterative one. */
       std::string  solver;
       unsigned int iterations = 0;
+      /** Largest memory of all ranks together until now (GB). */
+      double memory_gb = 0.;
       /** None if no error is estimated: then there is no such column. */
       std::optional<double> estimate_s;
     };
@@ -97,7 +99,7 @@ namespace Nacre
      * The columns element, degree, eta, thickness, cells, dofs, the
      * quantities, `ratio` of the first quantity that has a reference,
      * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s,
-     * estimate_s where errors are estimated, solver, iterations; 12 significant
+     * estimate_s where errors are estimated, solver, iterations, memory_gb; 12 significant
      * digits, nothing where there is no value.
      */
     void

@@ -13,6 +13,7 @@
 namespace Nacre
 {
   class Discretization;
+  class Log;
 
   /** Solvers of linear systems, by what they keep. */
   enum class SolverStorage
@@ -75,6 +76,10 @@ namespace Nacre
   double
   peak_memory(const MPI_Comm communicator);
 
+  /** The memory (GB) that the program has now, likewise. */
+  double
+  used_memory(const MPI_Comm communicator);
+
   /**
    * Throw an ExcMessage if the @p estimate is more than half as much again as
    * @p available (GB on all machines together): a run that the system would
@@ -85,6 +90,16 @@ namespace Nacre
   check_memory(const MemoryEstimate &estimate,
                const SolverStorage   storage,
                const double          available);
+
+  /**
+   * Tell the estimate if it is worth it, and judge it against what is @p free
+   * (GB on all machines together) and in use already. Collective.
+   */
+  void
+  report_memory(const Discretization &discretization,
+                const SolverStorage   storage,
+                const double          free,
+                Log                  &log);
 } // namespace Nacre
 
 #endif
