@@ -191,9 +191,11 @@ class Expectation:
     def _measured(self, row, rows):
         """The columns' values and both sides of the condition's comparisons."""
         def number(node):
-            return f"{self._evaluate(ast.unparse(node), row, rows, True):.4g}"
+            value = self._evaluate(ast.unparse(node), row, rows, True)
+            return value if isinstance(value, str) else f"{value:.4g}"
 
-        values = [f"{name} = {row[name]:.8g}" for name in self.columns]
+        values = [f"{name} = {row[name]}" if isinstance(row[name], str) else
+                  f"{name} = {row[name]:.8g}" for name in self.columns]
         for node in self.comparisons:
             values.append(number(node.left) + "".join(
                 f" {OPERATORS.get(type(operator), '?')} {number(right)}"
