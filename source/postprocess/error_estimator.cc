@@ -278,7 +278,8 @@ namespace Nacre
         }
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int r = 0; r < n; ++r)
-          forces[q] += edge_rule_.weight(q) / edge_.JxW(q) *
+          forces[q] += NACRE_MUTABLE(estimator_twist, 1., -1.) *
+                       edge_rule_.weight(q) / edge_.JxW(q) *
                        differentiation_(q, r) * twist[r];
       return forces;
     }
