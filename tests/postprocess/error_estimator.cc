@@ -157,6 +157,14 @@ namespace
                }),
                Residual::traction,
                0.25 * k * W_t * C * C * length);
+    // w = (x - 1/2)+ y^2: shear 2 D, and 2 (1 - nu) D of the twist
+    const auto twisted = plate.interior(
+      [](const auto &x) { return deflection(right(x) * x[1] * x[1]); });
+    check_below(name + ", jump of twist: traction",
+                std::abs(twisted[1] / (0.25 * k * W_n * length *
+                                       std::pow(2. * D * (2. - nu), 2)) -
+                         1.),
+                1e-8);
     if (p >= 3)
       check_only(name + ", jump of shear",
                  plate.interior([](const auto &x) {
