@@ -4,6 +4,7 @@
 
 import tempfile
 
+import paper
 from calculix import PROBLEMS, CalculiX
 from runs import RunError, build_empty_program, find_calculix, measure, seconds
 
@@ -115,6 +116,13 @@ def peers(context):
             table.append({"problem": problem, "series": label,
                           "to 1 %, s": time_to(one, 1e-2) or "-",
                           "to 0.1 %, s": time_to(one, 1e-3) or "-"})
+        best = {}
+        for column in ("to 1 %, s", "to 0.1 %, s"):
+            times = [row[column] for row in table
+                     if row["problem"] == problem and row[column] != "-" and
+                     row["series"].startswith("p = ")]
+            best[column] = min(times) if times else "-"
+        table.append(dict(best, problem=problem, series="nacre, the best"))
         for label, (one, tenth) in GIVEN[problem].items():
             table.append({"problem": problem, "series": label,
                           "to 1 %, s": one or "-", "to 0.1 %, s": tenth or "-"})
@@ -164,6 +172,7 @@ def solver_rows(context, solver, cases):
             context.settings(degree, n, (refinements,), solver),
             context.repeat)[0][0]
         rows.append({"p": degree, "dofs": row["dofs"],
+                     "solver": row.get("solver", ""),
                      "iterations": row.get("iterations", ""),
                      "set-up s": row["setup_s"],
                      "assembly s": row["assembly_s"],
@@ -291,6 +300,26 @@ def scaling(context):
         rows, ["more ranks than cores: no times"], name="iterations")
 
 
+def extrapolation(context):
+    """10^9 dofs on paper, from the results of the section multigrid"""
+    folder = context.report.folder
+    try:
+        dofs, _, _, _ = paper.measured(folder)
+    except (OSError, ValueError, KeyError):
+        context.say("There are no results of the section multigrid yet.")
+        return
+    rows = paper.table(folder)
+    context.report.table(
+        "extrapolation", "10^9 dofs on paper", list(rows[0]), rows,
+        [f"seconds and memory per dof: multigrid at p = {paper.DEGREE}, "
+         f"{dofs:.0f} dofs, one rank, multigrid.csv",
+         "turns of colours: border patches of the ranks take turns, six of "
+         "them, while the other ranks wait",
+         f"messages: {paper.LATENCY * 1e6:g} microseconds each and "
+         f"{paper.BANDWIDTH / 1e9:g} GB/s, assumed; "
+         f"{paper.ITERATIONS} iterations"])
+
+
 # --- adaptive refinement ------------------------------------------------------
 
 def adaptive(context):
@@ -356,4 +385,4 @@ def startup(context):
 
 SECTIONS = {function.__name__: function
             for function in (peers, assembly, direct, multigrid, scaling,
-                             adaptive, startup)}
+                             extrapolation, adaptive, startup)}

@@ -24,9 +24,9 @@ namespace Nacre
     /** 8 for the number, 4 for its column, 4 in the pattern. */
     constexpr double bytes_per_entry = 16.;
     /** Of the direct solver: bytes / (N log2 N), by degree from 2. */
-    constexpr double bytes_of_factors[] = {440., 780., 1060., 1350.};
+    constexpr double bytes_of_factors[] = {400., 660., 880., 1150.};
     /** Levels, prolongations, patches: bytes / N by degree from 2. */
-    constexpr double bytes_of_levels[] = {3000., 3500., 5500., 8000.};
+    constexpr double bytes_of_levels[] = {400., 1150., 2100., 4000.};
 
     std::string
     in_gigabytes(const double value)
