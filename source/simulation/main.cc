@@ -6,8 +6,10 @@
 #include <nacre/base/parameter_input.h>
 #include <nacre/base/text.h>
 #include <nacre/simulation/convergence_study.h>
+#include <nacre/solvers/blas_check.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/thread_management.h>
 
 #include <boost/program_options.hpp>
 
@@ -188,6 +190,11 @@ namespace
         return success;
       }
     Nacre::Log log(communicator, values->count("quiet") > 0);
+    const auto complaint =
+      Nacre::BlasCheck::complaint(Nacre::BlasCheck::kernel(),
+                                  Nacre::BlasCheck::processor());
+    if (!complaint.empty())
+      log.warning(complaint);
     study.run(log, values->count("restart") > 0);
     return success;
   }
@@ -199,5 +206,8 @@ main(int argc, char **argv)
 {
   // One thread for each rank.
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // The library of threads reads the process' memory map at its first task:
+  // part of the start, not of the first case.
+  dealii::Threads::new_task([]() {}).join();
   return Nacre::run_guarded(MPI_COMM_WORLD, [&]() { return run(argc, argv); });
 }
