@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/forms/matrix_pattern.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsGraph.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Dof  = types::global_dof_index;
+    using Dofs = std::vector<Dof>;
+
+    /** Lists of numbers, one after another: [k] from starts[k] on. */
+    struct Lists
+    {
+      std::vector<unsigned int> starts = {0};
+      std::vector<unsigned int> entries;
+
+      /** End the list that was appended to entries. */
+      void
+      close()
+      {
+        starts.push_back(entries.size());
+      }
+
+      ArrayView<const unsigned int>
+      operator[](const unsigned int k) const
+      {
+        return {entries.data() + starts[k], starts[k + 1] - starts[k]};
+      }
+    };
+
+    /** Dofs start, start + 1, ... of one vertex, edge or cell. */
+    struct Block
+    {
+      Dof          start;
+      unsigned int length;
+
+      bool
+      operator<(const Block &other) const
+      {
+        return start < other.start;
+      }
+
+      bool
+      operator==(const Block &other) const
+      {
+        return start == other.start;
+      }
+    };
+
+    /** Blocks of this rank's cells and ghosts, and which of them couple. */
+    class BlockPattern
+    {
+    public:
+      BlockPattern(const Discretization            &discretization,
+                   const AffineConstraints<double> &constraints)
+        : discretization_(discretization)
+        , constraints_(constraints)
+      {
+        collect_blocks();
+        collect_cells();
+        invert_cells();
+        marks_.assign(blocks_.size(), numbers::invalid_unsigned_int);
+        for (const auto &block : blocks_)
+          {
+            bool is_free = true;
+            for (unsigned int k = 0; k < block.length; ++k)
+              is_free &= !constraints_.is_constrained(block.start + k);
+            is_free_.push_back(is_free);
+          }
+      }
+
+      const std::vector<Block> &
+      blocks() const
+      {
+        return blocks_;
+      }
+
+      /**
+       * The blocks, ascending, to which this rank's cells and their edges
+       * couple the @p block.
+       */
+      void
+      coupled_blocks(const unsigned int         block,
+                     std::vector<unsigned int> &result)
+      {
+        result.clear();
+        const auto add_blocks = [&](const unsigned int cell) {
+          for (const unsigned int b : cell_blocks_[cell])
+            if (marks_[b] != block)
+              {
+                marks_[b] = block;
+                result.push_back(b);
+              }
+        };
+        for (const unsigned int cell : block_cells_[block])
+          {
+            if (is_mine_[cell])
+              add_blocks(cell);
+            for (const unsigned int neighbor : neighbors_[cell])
+              if (is_mine_[cell] || is_mine_[neighbor])
+                add_blocks(neighbor);
+          }
+        std::sort(result.begin(), result.end());
+      }
+
+      /** The free dofs of @p blocks. */
+      void
+      free_dofs(const std::vector<unsigned int> &blocks, Dofs &dofs) const
+      {
+        dofs.clear();
+        for (const unsigned int b : blocks)
+          if (is_free_[b])
+            {
+              const auto size = dofs.size();
+              dofs.resize(size + blocks_[b].length);
+              std::iota(dofs.begin() + size, dofs.end(), blocks_[b].start);
+            }
+          else
+            for (unsigned int k = 0; k < blocks_[b].length; ++k)
+              if (!constraints_.is_constrained(blocks_[b].start + k))
+                dofs.push_back(blocks_[b].start + k);
+      }
+
+    private:
+      template <typename Function>
+      void
+      for_each_cell(const Function &function) const
+      {
+        for (const auto &cell :
+             discretization_.dof_handler().active_cell_iterators())
+          function(cell);
+      }
+
+      /** Append the blocks of the cell's dofs: consecutive numbers. */
+      static void
+      append_blocks(const FiniteElement<dim, spacedim> &fe,
+                    const unsigned int                  n_lines,
+                    Dofs                               &dofs,
+                    std::vector<Block>                 &blocks)
+      {
+        const auto append = [&](const unsigned int first,
+                                const unsigned int length) {
+          // Edges may be numbered backwards.
+          std::sort(dofs.begin() + first, dofs.begin() + first + length);
+          for (unsigned int k = 0; k < length; ++k)
+            if (k > 0 && dofs[first + k] == dofs[first + k - 1] + 1)
+              ++blocks.back().length;
+            else
+              blocks.push_back({dofs[first + k], 1});
+        };
+        for (unsigned int v = 0; v < fe.reference_cell().n_vertices(); ++v)
+          append(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
+        for (unsigned int l = 0; l < n_lines; ++l)
+          append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
+                 fe.n_dofs_per_line());
+        append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
+      }
+
+      void
+      collect_blocks()
+      {
+        const auto &fe = discretization_.dof_handler().get_fe();
+        Dofs        dofs(fe.n_dofs_per_cell());
+        for_each_cell([&](const auto &cell) {
+          if (cell->is_artificial())
+            return;
+          cell->get_dof_indices(dofs);
+          append_blocks(fe, cell->n_lines(), dofs, blocks_);
+        });
+        std::sort(blocks_.begin(), blocks_.end());
+        blocks_.erase(std::unique(blocks_.begin(), blocks_.end()),
+                      blocks_.end());
+      }
+
+      unsigned int
+      block_of(const Dof dof) const
+      {
+        const auto next =
+          std::upper_bound(blocks_.begin(), blocks_.end(), Block{dof, 0});
+        Assert(next != blocks_.begin(), ExcInternalError());
+        Assert(dof < (next - 1)->start + (next - 1)->length,
+               ExcInternalError());
+        return next - blocks_.begin() - 1;
+      }
+
+      /** Blocks and neighbours of each cell. */
+      void
+      collect_cells()
+      {
+        const auto        &fe = discretization_.dof_handler().get_fe();
+        Dofs               dofs(fe.n_dofs_per_cell());
+        std::vector<Block> blocks;
+        for_each_cell([&](const auto &cell) {
+          is_mine_.push_back(cell->is_locally_owned());
+          if (!cell->is_artificial())
+            {
+              blocks.clear();
+              cell->get_dof_indices(dofs);
+              append_blocks(fe, cell->n_lines(), dofs, blocks);
+              for (const auto &block : blocks)
+                cell_blocks_.entries.push_back(block_of(block.start));
+              append_masters(dofs);
+              append_neighbors(cell);
+            }
+          cell_blocks_.close();
+          neighbors_.close();
+        });
+      }
+
+      /** Blocks on which eliminated dofs of the cell depend. */
+      void
+      append_masters(const Dofs &dofs)
+      {
+        for (const Dof dof : dofs)
+          if (constraints_.is_constrained(dof))
+            for (const auto &entry : *constraints_.get_constraint_entries(dof))
+              cell_blocks_.entries.push_back(block_of(entry.first));
+      }
+
+      template <typename Cell>
+      void
+      append_neighbors(const Cell &cell)
+      {
+        const auto append = [&](const auto &neighbor) {
+          if (!neighbor->is_artificial())
+            neighbors_.entries.push_back(neighbor->active_cell_index());
+        };
+        for (const auto face : cell->face_indices())
+          {
+            if (cell->at_boundary(face))
+              continue;
+            if (cell->neighbor(face)->is_active())
+              append(cell->neighbor(face));
+            else
+              for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
+                append(cell->neighbor_child_on_subface(face, s));
+          }
+      }
+
+      /** block_cells_ from cell_blocks_. */
+      void
+      invert_cells()
+      {
+        auto &starts = block_cells_.starts;
+        starts.assign(blocks_.size() + 1, 0);
+        for (const unsigned int b : cell_blocks_.entries)
+          ++starts[b + 1];
+        for (unsigned int b = 0; b < blocks_.size(); ++b)
+          starts[b + 1] += starts[b];
+        auto next = starts;
+        block_cells_.entries.resize(cell_blocks_.entries.size());
+        for (unsigned int cell = 0; cell < is_mine_.size(); ++cell)
+          for (const unsigned int b : cell_blocks_[cell])
+            block_cells_.entries[next[b]++] = cell;
+      }
+
+      const Discretization            &discretization_;
+      const AffineConstraints<double> &constraints_;
+      std::vector<Block>               blocks_;
+      std::vector<bool>                is_free_; // no dof of it constrained
+      std::vector<bool>                is_mine_; // by active cell index
+      Lists                            cell_blocks_;
+      Lists                            neighbors_;
+      Lists                            block_cells_;
+      std::vector<unsigned int>        marks_;
+    };
+
+    /** Columns that other ranks know, by the first dof of this rank's block. */
+    std::map<Dof, Dofs>
+    exchange_columns(const Discretization &discretization,
+                     BlockPattern         &pattern)
+    {
+      const MPI_Comm  communicator = discretization.communicator();
+      const IndexSet &owned        = discretization.locally_owned_dofs();
+      // First dofs of all ranks; numbers of ranks without any don't matter.
+      const Dofs ends = Utilities::MPI::all_gather(
+        communicator,
+        static_cast<Dof>(owned.n_elements() == 0 ?
+                           0 :
+                           owned.nth_index_in_set(owned.n_elements() - 1) + 1));
+      const auto owner = [&](const Dof dof) {
+        unsigned int rank = 0;
+        while (dof >= ends[rank])
+          ++rank;
+        return rank;
+      };
+      std::map<unsigned int, Dofs> messages;
+      std::vector<unsigned int>    coupled;
+      Dofs                         columns;
+      for (unsigned int b = 0; b < pattern.blocks().size(); ++b)
+        {
+          const Dof start = pattern.blocks()[b].start;
+          if (owned.is_element(start))
+            continue;
+          pattern.coupled_blocks(b, coupled);
+          pattern.free_dofs(coupled, columns);
+          if (columns.empty())
+            continue;
+          Dofs &message = messages[owner(start)];
+          message.push_back(start);
+          message.push_back(columns.size());
+          message.insert(message.end(), columns.begin(), columns.end());
+        }
+      std::map<Dof, Dofs> result;
+      for (const auto &[rank, message] :
+           Utilities::MPI::some_to_some(communicator, messages))
+        for (auto entry = message.begin(); entry != message.end();)
+          {
+            Dofs      &list   = result[entry[0]];
+            const auto length = entry[1];
+            list.insert(list.end(), entry + 2, entry + 2 + length);
+            entry += 2 + length;
+          }
+      for (auto &[start, list] : result)
+        {
+          std::sort(list.begin(), list.end());
+          list.erase(std::unique(list.begin(), list.end()), list.end());
+        }
+      return result;
+    }
+
+    /** Columns of the rows of this rank's blocks, one block after another. */
+    class BlockRows
+    {
+    public:
+      BlockRows(const Discretization            &discretization,
+                const AffineConstraints<double> &constraints)
+        : pattern_(discretization, constraints)
+        , owned_(discretization.locally_owned_dofs())
+      {
+        if (Utilities::MPI::n_mpi_processes(discretization.communicator()) > 1)
+          foreign_ = exchange_columns(discretization, pattern_);
+      }
+
+      /** Call @p use(block, columns) for each; columns ascend. */
+      template <typename Function>
+      void
+      for_each(const Function &use)
+      {
+        Dofs columns, joint;
+        for (unsigned int b = 0; b < pattern_.blocks().size(); ++b)
+          {
+            const auto &block = pattern_.blocks()[b];
+            if (!owned_.is_element(block.start))
+              continue;
+            pattern_.coupled_blocks(b, coupled_);
+            pattern_.free_dofs(coupled_, columns);
+            const auto foreign = foreign_.find(block.start);
+            if (foreign != foreign_.end())
+              {
+                joint.clear();
+                std::set_union(columns.begin(),
+                               columns.end(),
+                               foreign->second.begin(),
+                               foreign->second.end(),
+                               std::back_inserter(joint));
+                columns.swap(joint);
+              }
+            use(block, columns);
+          }
+      }
+
+    private:
+      BlockPattern              pattern_;
+      const IndexSet           &owned_;
+      std::map<Dof, Dofs>       foreign_;
+      std::vector<unsigned int> coupled_;
+    };
+
+    /**
+     * Tell the @p graph, which shares its data with its copies, that its rows
+     * ascend, or Trilinos would sort them again.
+     */
+    void
+    mark_sorted(const Epetra_CrsGraph &graph)
+    {
+      struct SortedGraph : public Epetra_CrsGraph
+      {
+        explicit SortedGraph(const Epetra_CrsGraph &other)
+          : Epetra_CrsGraph(other)
+        {
+          SetSorted(true);
+        }
+      };
+      const SortedGraph sorted(graph);
+    }
+  } // namespace
+
+  void
+  make_matrix_pattern(const Discretization            &discretization,
+                      const AffineConstraints<double> &constraints,
+                      TrilinosWrappers::SparseMatrix  &matrix)
+  {
+    using Int = TrilinosWrappers::types::int_type;
+
+    const IndexSet  &owned = discretization.locally_owned_dofs();
+    const Epetra_Map row_map =
+      owned.make_trilinos_map(discretization.communicator(), false);
+    const Dof first =
+      owned.n_elements() > 0 ? owned.nth_index_in_set(0) : Dof(0);
+    BlockRows rows(discretization, constraints);
+
+    // Lengths of the rows, and columns of other ranks.
+    std::vector<int> lengths(owned.n_elements());
+    Dofs             ghosts;
+    rows.for_each([&](const Block &block, const Dofs &columns) {
+      for (unsigned int k = 0; k < block.length; ++k)
+        lengths[block.start + k - first] =
+          constraints.is_constrained(block.start + k) ? 1 : columns.size();
+      for (const Dof column : columns)
+        if (!owned.is_element(column))
+          ghosts.push_back(column);
+    });
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+
+    // This rank's columns come first, those of other ranks follow.
+    std::vector<Int> column_dofs(owned.begin(), owned.end());
+    column_dofs.insert(column_dofs.end(), ghosts.begin(), ghosts.end());
+    const Epetra_Map column_map(static_cast<Int>(-1),
+                                static_cast<int>(column_dofs.size()),
+                                column_dofs.data(),
+                                0,
+                                row_map.Comm());
+    const Dof        end          = first + owned.n_elements();
+    const auto       local_column = [&](const Dof dof) -> int {
+      return dof >= first && dof < end ?
+                     dof - first :
+                     end - first +
+                 (std::lower_bound(ghosts.begin(), ghosts.end(), dof) -
+                  ghosts.begin());
+    };
+
+    // Trilinos' own insertion would copy and sort every row once more. The
+    // values are never touched.
+    Epetra_CrsMatrix rows_only(Copy, row_map, column_map, 0, true);
+    auto            &starts  = rows_only.ExpertExtractIndexOffset();
+    auto            &indices = rows_only.ExpertExtractIndices();
+    starts.Resize(lengths.size() + 1);
+    starts[0] = 0;
+    std::partial_sum(lengths.begin(), lengths.end(), starts.Values() + 1);
+    indices.Resize(starts[lengths.size()]);
+    rows_only.ExpertExtractValues() = new double[starts[lengths.size()]];
+    rows.for_each([&](const Block &block, const Dofs &columns) {
+      const int *done = nullptr;
+      for (unsigned int k = 0; k < block.length; ++k)
+        {
+          const int row   = block.start + k - first;
+          int      *begin = indices.Values() + starts[row];
+          if (constraints.is_constrained(block.start + k))
+            *begin = row;
+          else if (done != nullptr)
+            std::copy(done, done + columns.size(), begin);
+          else
+            {
+              std::transform(columns.begin(),
+                             columns.end(),
+                             begin,
+                             local_column);
+              if (!ghosts.empty())
+                std::sort(begin, begin + columns.size());
+              done = begin;
+            }
+        }
+    });
+    const int error = rows_only.ExpertStaticFillComplete(row_map, row_map);
+    AssertThrow(error == 0, ExcTrilinosError(error));
+    mark_sorted(rows_only.Graph());
+    matrix.reinit(rows_only, false);
+  }
+} // namespace Nacre
