@@ -201,6 +201,7 @@ namespace Nacre
     geometry_.zero_out_ghost_values();
     make_hanging_node_constraints(geometry_dof_handler_).distribute(geometry_);
     geometry_.update_ghost_values();
+    store_geometry_nodes();
 
     // FE_Q(2) contains the 8-node space.
     if (element_.reference_cell() == ReferenceCells::Quadrilateral)
@@ -214,32 +215,32 @@ namespace Nacre
         mapping_ = std::move(mapping);
       }
     else
-      mapping_ =
-        std::make_unique<NodalMapping>(scalar_geometry_fe,
-                                       [this](const auto &cell) {
-                                         return geometry_positions(cell);
-                                       });
+      mapping_ = std::make_unique<NodalMapping>(
+        scalar_geometry_fe,
+        [this](const auto &cell) {
+          const auto nodes = geometry_nodes(cell);
+          return std::vector<Point<spacedim>>(nodes.begin(), nodes.end());
+        });
   }
 
-  std::vector<Point<spacedim>>
-  Discretization::geometry_positions(
-    const Triangulation<dim, spacedim>::cell_iterator &cell) const
+  void
+  Discretization::store_geometry_nodes()
   {
-    const DoFHandler<dim, spacedim>::active_cell_iterator geometry_cell(
-      triangulation_.get(),
-      cell->level(),
-      cell->index(),
-      &geometry_dof_handler_);
+    const unsigned int                   n_nodes = geometry_to_nodes_.n();
     std::vector<types::global_dof_index> dofs(geometry_fe_.n_dofs_per_cell());
-    geometry_cell->get_dof_indices(dofs);
-
-    std::vector<Point<spacedim>> positions(dofs.size() / spacedim);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      {
-        const auto [c, b] = geometry_fe_.system_to_component_index(i);
-        positions[b][c]   = geometry_(dofs[i]);
-      }
-    return positions;
+    geometry_nodes_.resize(triangulation_->n_active_cells() * n_nodes);
+    for (const auto &cell : geometry_dof_handler_.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(dofs);
+          auto *const nodes =
+            &geometry_nodes_[cell->active_cell_index() * n_nodes];
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            {
+              const auto [c, b] = geometry_fe_.system_to_component_index(i);
+              nodes[b][c]       = geometry_(dofs[i]);
+            }
+        }
   }
 
   MPI_Comm
@@ -272,12 +273,6 @@ namespace Nacre
     return *scalar_fe_;
   }
 
-  const std::vector<unsigned int> &
-  Discretization::node_dofs() const
-  {
-    return node_dofs_;
-  }
-
   const IndexSet &
   Discretization::locally_owned_dofs() const
   {
@@ -300,7 +295,7 @@ namespace Nacre
   Discretization::node_positions(
     const Triangulation<dim, spacedim>::active_cell_iterator &cell) const
   {
-    const auto                   geometry = geometry_positions(cell);
+    const auto                   geometry = geometry_nodes(cell);
     std::vector<Point<spacedim>> positions(scalar_fe_->n_dofs_per_cell());
     for (unsigned int a = 0; a < positions.size(); ++a)
       for (unsigned int b = 0; b < geometry.size(); ++b)

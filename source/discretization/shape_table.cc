@@ -3,7 +3,11 @@
 
 #include <nacre/discretization/shape_table.h>
 
-#include <deal.II/fe/fe.h>
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/tensor_product_polynomials.h>
+
+#include <deal.II/fe/fe_q.h>
 
 namespace Nacre
 {
@@ -16,14 +20,74 @@ namespace Nacre
     values_.reserve(size);
     gradients_.reserve(size);
     hessians_.reserve(size);
+    if (const auto *fe_q = dynamic_cast<const FE_Q<dim, spacedim> *>(&fe))
+      fill_products(*fe_q, points);
+    else
+      for (const auto &point : points)
+        for (unsigned int a = 0; a < n_nodes_; ++a)
+          append(fe.shape_value(a, point),
+                 fe.shape_grad(a, point),
+                 fe.shape_grad_grad(a, point));
+  }
+
+  void
+  ShapeTable::fill_products(const FE_Q<dim, spacedim>     &fe,
+                            const std::vector<Point<dim>> &points)
+  {
+    TensorProductPolynomials<dim> polynomials(
+      Polynomials::generate_complete_Lagrange_basis(
+        QGaussLobatto<1>(fe.degree + 1).get_points()));
+    polynomials.set_numbering(fe.get_poly_space_numbering());
+    std::vector<double>         values(n_nodes_);
+    std::vector<Tensor<1, dim>> gradients(n_nodes_);
+    std::vector<Tensor<2, dim>> hessians(n_nodes_);
+    std::vector<Tensor<3, dim>> third;
+    std::vector<Tensor<4, dim>> fourth;
     for (const auto &point : points)
-      for (unsigned int a = 0; a < n_nodes_; ++a)
+      {
+        polynomials.evaluate(point, values, gradients, hessians, third, fourth);
+        for (unsigned int a = 0; a < n_nodes_; ++a)
+          append(values[a], gradients[a], hessians[a]);
+      }
+  }
+
+  void
+  ShapeTable::append(const double          value,
+                     const Tensor<1, dim> &gradient,
+                     const Tensor<2, dim> &hessian)
+  {
+    values_.push_back(value);
+    gradients_.push_back({{gradient[0], gradient[1]}});
+    hessians_.push_back({{hessian[0][0], hessian[1][1], hessian[0][1]}});
+  }
+
+  GeometryTable::GeometryTable(const FiniteElement<dim, spacedim> &fe,
+                               const std::vector<Point<dim>>      &points)
+    : rows_(fe.n_dofs_per_cell(), n_kinds * points.size())
+  {
+    const ShapeTable shapes(fe, points);
+    for (unsigned int b = 0; b < rows_.m(); ++b)
+      for (unsigned int q = 0; q < points.size(); ++q)
         {
-          const auto gradient = fe.shape_grad(a, point);
-          const auto hessian  = fe.shape_grad_grad(a, point);
-          values_.push_back(fe.shape_value(a, point));
-          gradients_.push_back({{gradient[0], gradient[1]}});
-          hessians_.push_back({{hessian[0][0], hessian[1][1], hessian[0][1]}});
+          double *row = &rows_(b, n_kinds * q);
+          row[0]      = shapes.value(q, b);
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            row[1 + alpha] = shapes.gradient(q, b)[alpha];
+          for (unsigned int v = 0; v < 3; ++v)
+            row[3 + v] = shapes.hessian(q, b)[v];
         }
+  }
+
+  void
+  GeometryTable::evaluate(const ArrayView<const Point<spacedim>> &nodes,
+                          Values                                 &values) const
+  {
+    AssertDimension(nodes.size(), rows_.m());
+    values.nodes_.reinit(rows_.m(), spacedim, true);
+    values.values_.reinit(spacedim, rows_.n(), true);
+    for (unsigned int b = 0; b < nodes.size(); ++b)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        values.nodes_(b, c) = nodes[b][c];
+    values.nodes_.Tmmult(values.values_, rows_);
   }
 } // namespace Nacre

@@ -1,47 +1,42 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/simd.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/shell_strain.h>
 
 #include <deal.II/base/qprojector.h>
-#include <deal.II/base/quadrature_lib.h>
 
 namespace Nacre
 {
   namespace
   {
-    const UpdateFlags geometry_flags =
-      update_jacobians | update_jacobian_grads | update_JxW_values |
-      update_quadrature_points;
-
-    /** Column @p alpha of the Jacobian: phi0,alpha. */
-    Tensor<1, spacedim>
-    tangent(const DerivativeForm<1, dim, spacedim> &jacobian,
-            const unsigned int                      alpha)
+    /** The frame at the point @p q. */
+    SurfaceFrame<>
+    frame_from(const GeometryTable::Values &geometry, const unsigned int q)
     {
-      Tensor<1, spacedim> a;
-      for (unsigned int c = 0; c < spacedim; ++c)
-        a[c] = jacobian[c][alpha];
-      return a;
+      return make_surface_frame(geometry.tangent(q, 0),
+                                geometry.tangent(q, 1),
+                                geometry.second_derivatives(q));
     }
 
-    SurfaceFrame<>
-    frame_from(const FEValuesBase<dim, spacedim> &fe_values,
-               const unsigned int                 q)
+    /** row = sum of weight times the sample's row, each of @p n numbers. */
+    NACRE_SIMD void
+    combine(const double                                *samples,
+            const std::pair<unsigned int, double> *const weights,
+            const unsigned int                           n_weights,
+            const unsigned int                           n,
+            double                                      *row)
     {
-      const auto &gradient = fe_values.jacobian_grad(q);
-
-      std::array<Tensor<1, spacedim>, 3> derivatives;
-      for (unsigned int c = 0; c < spacedim; ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        row[i] = 0.;
+      for (unsigned int k = 0; k < n_weights; ++k)
         {
-          derivatives[0][c] = gradient[c][0][0];
-          derivatives[1][c] = gradient[c][1][1];
-          derivatives[2][c] = gradient[c][0][1];
+          const double *const sample = samples + weights[k].first * n;
+          const double        weight = weights[k].second;
+          for (unsigned int i = 0; i < n; ++i)
+            row[i] += weight * sample[i];
         }
-      return make_surface_frame(tangent(fe_values.jacobian(q), 0),
-                                tangent(fe_values.jacobian(q), 1),
-                                derivatives);
     }
   } // namespace
 
@@ -54,17 +49,14 @@ namespace Nacre
     , tying_(tied ? MembraneTying(discretization.element(),
                                   quadrature.get_points()) :
                     MembraneTying::untied(quadrature.get_points()))
-    , fe_nothing_(discretization.element().reference_cell())
-    , fe_values_(discretization.mapping(),
-                 fe_nothing_,
-                 quadrature,
-                 geometry_flags)
-    , tying_fe_values_(discretization.mapping(),
-                       fe_nothing_,
-                       Quadrature<dim>(tying_.points()),
-                       update_jacobians)
     , shapes_(discretization.scalar_fe(), quadrature.get_points())
-    , tying_shapes_(discretization.scalar_fe(), tying_.points())
+    , tying_shapes_(tied ?
+                      ShapeTable(discretization.scalar_fe(), tying_.points()) :
+                      shapes_)
+    , geometry_table_(discretization.geometry_fe(), quadrature.get_points())
+    , tying_geometry_table_(
+        tied ? GeometryTable(discretization.geometry_fe(), tying_.points()) :
+               geometry_table_)
     , frames_(quadrature.size())
     , tying_frames_(tied ? tying_.points().size() : 0)
     , membrane_rows_(3 * quadrature.size(), n_dofs())
@@ -72,33 +64,38 @@ namespace Nacre
     , tying_rows_(tied ? tying_.samples().size() : 0, n_dofs())
   {}
 
-  ShellCellValues::ShellCellValues(const ShellCellValues &other)
-    : ShellCellValues(other.discretization_, other.quadrature_, other.tied_)
-  {}
+  void
+  ShellCellValues::evaluate(
+    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  {
+    const auto nodes = discretization_.geometry_nodes(cell);
+    material_id_     = cell->material_id();
+    geometry_table_.evaluate(nodes, geometry_);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      frames_[q] = frame_from(geometry_, q);
+    if (tied_)
+      tying_geometry_table_.evaluate(nodes, tying_geometry_);
+  }
 
   void
   ShellCellValues::reinit_frames(
     const Triangulation<dim, spacedim>::cell_iterator &cell)
   {
-    fe_values_.reinit(cell);
-    for (unsigned int q = 0; q < n_points(); ++q)
-      frames_[q] = frame_from(fe_values_, q);
-    if (tied_)
-      {
-        tying_fe_values_.reinit(cell);
-        for (unsigned int k = 0; k < tying_frames_.size(); ++k)
-          tying_frames_[k] =
-            make_surface_frame(tangent(tying_fe_values_.jacobian(k), 0),
-                               tangent(tying_fe_values_.jacobian(k), 1),
-                               {});
-      }
+    evaluate(cell);
+    for (unsigned int k = 0; k < tying_frames_.size(); ++k)
+      tying_frames_[k] = make_surface_frame(tying_geometry_.tangent(k, 0),
+                                            tying_geometry_.tangent(k, 1),
+                                            {});
   }
 
   void
   ShellCellValues::reinit(
     const Triangulation<dim, spacedim>::cell_iterator &cell)
   {
-    reinit_frames(cell);
+    evaluate(cell);
+    for (unsigned int k = 0; k < tying_frames_.size(); ++k)
+      for (unsigned int alpha = 0; alpha < dim; ++alpha)
+        tying_frames_[k].a_cov[alpha] = tying_geometry_.tangent(k, alpha);
     if (tied_)
       fill_tied_membrane_rows();
     else
@@ -109,117 +106,148 @@ namespace Nacre
   void
   ShellCellValues::fill_membrane_rows()
   {
+    const unsigned int *const dofs = discretization_.node_dofs().data();
     for (unsigned int q = 0; q < n_points(); ++q)
-      for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
-        {
-          const auto &dN    = shapes_.gradient(q, a);
-          const auto &a_cov = frames_[q].a_cov;
-          for (unsigned int c = 0; c < spacedim; ++c)
-            {
-              const unsigned int i         = dof(a, c);
-              membrane_rows_(3 * q, i)     = a_cov[0][c] * dN[0];
-              membrane_rows_(3 * q + 1, i) = a_cov[1][c] * dN[1];
-              membrane_rows_(3 * q + 2, i) =
-                a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
-            }
-        }
+      {
+        const auto &a_cov  = frames_[q].a_cov;
+        double     *row[3] = {&membrane_rows_(3 * q, 0),
+                              &membrane_rows_(3 * q + 1, 0),
+                              &membrane_rows_(3 * q + 2, 0)};
+        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+          {
+            const auto &dN = shapes_.gradient(q, a);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const unsigned int i = dofs[spacedim * a + c];
+                row[0][i]            = a_cov[0][c] * dN[0];
+                row[1][i]            = a_cov[1][c] * dN[1];
+                row[2][i] = a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
+              }
+          }
+      }
   }
 
   void
   ShellCellValues::fill_tied_membrane_rows()
   {
+    const unsigned int *const dofs = discretization_.node_dofs().data();
     for (unsigned int k = 0; k < tying_rows_.m(); ++k)
       {
         const auto &[point, direction] = tying_.samples()[k];
         const auto &[a_1, a_2]         = tying_frames_[point].a_cov;
+        double *const row              = &tying_rows_(k, 0);
+        // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)
+        const auto g_1 = direction[0] * a_1 + direction[2] * a_2;
+        const auto g_2 = direction[2] * a_1 + direction[1] * a_2;
         for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
           {
-            // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)
-            const auto  &dN  = tying_shapes_.gradient(point, a);
-            const double s_1 = direction[0] * dN[0] + direction[2] * dN[1];
-            const double s_2 = direction[1] * dN[1] + direction[2] * dN[0];
+            const auto &dN = tying_shapes_.gradient(point, a);
             for (unsigned int c = 0; c < spacedim; ++c)
-              tying_rows_(k, dof(a, c)) = s_1 * a_1[c] + s_2 * a_2[c];
+              row[dofs[spacedim * a + c]] = dN[0] * g_1[c] + dN[1] * g_2[c];
           }
       }
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
         {
-          double *row = &membrane_rows_(3 * q + v, 0);
-          std::fill(row, row + n_dofs(), 0.);
-          for (const auto &[k, weight] : tying_.weights(q, v))
-            {
-              const double *sample = &tying_rows_(k, 0);
-              for (unsigned int i = 0; i < tying_rows_.n(); ++i)
-                row[i] += weight * sample[i];
-            }
+          const auto &weights = tying_.weights(q, v);
+          combine(&tying_rows_(0, 0),
+                  weights.data(),
+                  weights.size(),
+                  tying_rows_.n(),
+                  &membrane_rows_(3 * q + v, 0));
         }
   }
 
   void
   ShellCellValues::fill_bending_rows()
   {
+    const unsigned int *const dofs = discretization_.node_dofs().data();
     for (unsigned int q = 0; q < n_points(); ++q)
-      for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
-        {
-          const auto strain =
-            ShellStrain::bending_of_shape_function(frames_[q],
-                                                   shapes_.gradient(q, a),
-                                                   shapes_.hessian(q, a));
-          for (unsigned int c = 0; c < spacedim; ++c)
-            for (unsigned int v = 0; v < 3; ++v)
-              bending_rows_(3 * q + v, dof(a, c)) =
-                strain[v] * frames_[q].t0[c];
-        }
+      {
+        const auto &t0     = frames_[q].t0;
+        double     *row[3] = {&bending_rows_(3 * q, 0),
+                              &bending_rows_(3 * q + 1, 0),
+                              &bending_rows_(3 * q + 2, 0)};
+        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+          {
+            const auto strain =
+              ShellStrain::bending_of_shape_function(frames_[q],
+                                                     shapes_.gradient(q, a),
+                                                     shapes_.hessian(q, a));
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const unsigned int i = dofs[spacedim * a + c];
+                for (unsigned int v = 0; v < 3; ++v)
+                  row[v][i] = strain[v] * t0[c];
+              }
+          }
+      }
   }
+
+  ShellEdgeValues::Table::Table(const Discretization          &discretization,
+                                const std::vector<Point<dim>> &points)
+    : shapes(discretization.scalar_fe(), points)
+    , geometry(discretization.geometry_fe(), points)
+  {}
 
   ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
     : discretization_(discretization)
     , quadrature_(discretization.element().edge_quadrature())
-    , interface_values_(discretization.mapping(),
-                        discretization.dof_handler().get_fe(),
-                        discretization.element().edge_quadrature(),
-                        geometry_flags | update_normal_vectors)
+    , JxW_(quadrature_.size())
   {
-    make_tables();
+    make_directions();
+    const auto &node_dofs = discretization.node_dofs();
+    local_to_node_.resize(node_dofs.size());
+    for (unsigned int k = 0; k < node_dofs.size(); ++k)
+      local_to_node_[node_dofs[k]] = k;
     for (unsigned int side = 0; side < 2; ++side)
       {
         frames_[side].resize(quadrature_.size());
+        conormals_[side].resize(quadrature_.size());
         joint_dofs_[side].resize(discretization.node_dofs().size());
-        local_to_joint_[side].resize(discretization.node_dofs().size());
+        cell_dofs_[side].resize(discretization.node_dofs().size());
       }
   }
 
   void
-  ShellEdgeValues::make_tables()
+  ShellEdgeValues::make_directions()
   {
-    const auto  cell   = discretization_.element().reference_cell();
-    const auto &fe     = discretization_.scalar_fe();
-    auto        points = std::vector<Point<dim>>(quadrature_.size());
+    const auto cell = discretization_.element().reference_cell();
     tables_.resize(cell.n_faces());
     for (const auto face : cell.face_indices())
       {
-        for (unsigned int subface = 0; subface < 2; ++subface)
-          {
-            // Meshes of triangles have no hanging nodes.
-            if (cell == ReferenceCells::Quadrilateral)
-              QProjector<dim>::project_to_subface(cell,
-                                                  quadrature_,
-                                                  face,
-                                                  subface,
-                                                  points);
-            tables_[face].emplace_back(fe, points);
-          }
-        QProjector<dim>::project_to_face(cell, quadrature_, face, points);
-        tables_[face].emplace_back(fe, points);
-        std::reverse(points.begin(), points.end());
-        tables_[face].emplace_back(fe, points);
+        const Tensor<1, dim> along =
+          cell.vertex<dim>(cell.face_to_cell_vertices(face, 1, 1)) -
+          cell.vertex<dim>(cell.face_to_cell_vertices(face, 0, 1));
+        const auto outward = cell.unit_normal_vectors<dim>(face);
+        directions_.push_back(along);
+        outward_.push_back(outward[0] * along[1] > outward[1] * along[0] ? 1. :
+                                                                           -1.);
       }
   }
 
-  ShellEdgeValues::ShellEdgeValues(const ShellEdgeValues &other)
-    : ShellEdgeValues(other.discretization_)
-  {}
+  const ShellEdgeValues::Table &
+  ShellEdgeValues::table(const unsigned int face, const unsigned int kind)
+  {
+    auto &table = tables_[face][kind];
+    if (!table)
+      {
+        const auto cell   = discretization_.element().reference_cell();
+        auto       points = std::vector<Point<dim>>(quadrature_.size());
+        if (kind < 2)
+          QProjector<dim>::project_to_subface(cell,
+                                              quadrature_,
+                                              face,
+                                              kind,
+                                              points);
+        else
+          QProjector<dim>::project_to_face(cell, quadrature_, face, points);
+        if (kind == 3)
+          std::reverse(points.begin(), points.end());
+        table.emplace(discretization_, points);
+      }
+    return *table;
+  }
 
   void
   ShellEdgeValues::reinit(const cell_iterator &cell,
@@ -229,54 +257,83 @@ namespace Nacre
                           const unsigned int   neighbor_face,
                           const unsigned int   neighbor_subface)
   {
-    interface_values_
-      .reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
     n_sides_ = 2;
-    update({{cell, neighbor}},
-           {{face, neighbor_face}},
-           {{subface, neighbor_subface}});
+    update_side(0, cell, face, subface);
+    update_side(1, neighbor, neighbor_face, neighbor_subface);
+    join_dofs({{cell, neighbor}});
   }
 
   void
   ShellEdgeValues::reinit(const cell_iterator &cell, const unsigned int face)
   {
-    interface_values_.reinit(cell, face);
     n_sides_ = 1;
-    update({{cell, cell}},
-           {{face, numbers::invalid_unsigned_int}},
-           {{numbers::invalid_unsigned_int, numbers::invalid_unsigned_int}});
+    update_side(0, cell, face, numbers::invalid_unsigned_int);
+    join_dofs({{cell, cell}});
   }
 
   void
-  ShellEdgeValues::update(const std::array<cell_iterator, 2> &cells,
-                          const std::array<unsigned int, 2>  &faces,
-                          const std::array<unsigned int, 2>  &subfaces)
+  ShellEdgeValues::update_side(const unsigned int   side,
+                               const cell_iterator &cell,
+                               const unsigned int   face,
+                               const unsigned int   subface)
   {
-    dof_indices_ = interface_values_.get_interface_dof_indices();
+    const bool         whole = (subface == numbers::invalid_unsigned_int);
+    const unsigned int kind =
+      whole ? (cell->face_orientation(face) ? 2 : 3) : subface;
+    const Table &points   = table(face, kind);
+    auto        &geometry = geometry_[side];
+    table_of_side_[side]  = {face, kind};
+    material_ids_[side]   = cell->material_id();
+    points.geometry.evaluate(discretization_.geometry_nodes(cell), geometry);
 
-    // Invert the map from joint dofs to the dofs of the sides.
-    for (unsigned int i = 0; i < dof_indices_.size(); ++i)
+    const Tensor<1, dim> along = directions_[face];
+    // nu^- = n^-, nu^+ = -n^+
+    const double sign = outward_[face] * (side == 0 ? 1. : -1.);
+    for (unsigned int q = 0; q < n_points(); ++q)
       {
-        const auto local = interface_values_.interface_dof_to_dof_indices(i);
-        for (unsigned int side = 0; side < n_sides_; ++side)
-          if (local[side] != numbers::invalid_unsigned_int)
-            local_to_joint_[side][local[side]] = i;
+        const auto &frame = frames_[side][q] = frame_from(geometry, q);
+        const auto  tangent =
+          along[0] * frame.a_cov[0] + along[1] * frame.a_cov[1];
+        const double length = tangent.norm();
+        conormals_[side][q] =
+          (sign / length) * cross_product_3d(tangent, frame.t0);
+        if (side == 0)
+          JxW_[q] = (whole ? 1. : 0.5) * length * quadrature_.weight(q);
       }
+  }
 
-    const auto &node_dofs = discretization_.node_dofs();
-    for (unsigned int side = 0; side < n_sides_; ++side)
+  void
+  ShellEdgeValues::join_dofs(const std::array<cell_iterator, 2> &cells)
+  {
+    const auto        &node_dofs = discretization_.node_dofs();
+    const unsigned int n         = node_dofs.size();
+    cells[0]->get_dof_indices(cell_dofs_[0]);
+    dof_indices_   = cell_dofs_[0];
+    joint_dofs_[0] = node_dofs;
+    if (n_sides_ == 1)
+      return;
+
+    // Shared nodes lie on the boundary of both cells; they come first.
+    const auto        &fe       = discretization_.scalar_fe();
+    const unsigned int n_shared = fe.n_dofs_per_cell() - fe.n_dofs_per_quad();
+    cells[1]->get_dof_indices(cell_dofs_[1]);
+    auto &joint = joint_dofs_[1];
+    std::fill(joint.begin(), joint.end(), numbers::invalid_unsigned_int);
+    for (unsigned int b = 0; b < n_shared; ++b)
       {
-        for (unsigned int k = 0; k < node_dofs.size(); ++k)
-          joint_dofs_[side][k] = local_to_joint_[side][node_dofs[k]];
-        const bool whole = (subfaces[side] == numbers::invalid_unsigned_int);
-        const unsigned int whole_table =
-          cells[side]->face_orientation(faces[side]) ? 2 : 3;
-        shapes_[side] =
-          &tables_[faces[side]][whole ? whole_table : subfaces[side]];
-        for (unsigned int q = 0; q < n_points(); ++q)
-          frames_[side][q] =
-            frame_from(interface_values_.get_fe_face_values(side), q);
+        const auto dof = cell_dofs_[1][node_dofs[spacedim * b]];
+        for (unsigned int a = 0; a < n_shared; ++a)
+          if (cell_dofs_[0][node_dofs[spacedim * a]] == dof)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              joint[spacedim * b + c] = node_dofs[spacedim * a + c];
       }
+    // The neighbour's other dofs, in its own order.
+    for (unsigned int i = 0; i < n; ++i)
+      if (joint[local_to_node_[i]] == numbers::invalid_unsigned_int)
+        {
+          joint[local_to_node_[i]] = dof_indices_.size();
+          dof_indices_.push_back(cell_dofs_[1][i]);
+        }
   }
 
   double
@@ -285,7 +342,7 @@ namespace Nacre
     if (side == 0)
       return 1.;
     const auto direction = [&](const unsigned int s) {
-      return cross_product_3d(conormal(s, q), frames_[s][q].t0);
+      return cross_product_3d(conormals_[s][q], frames_[s][q].t0);
     };
     return direction(1) * direction(0) > 0. ? 1. : -1.;
   }

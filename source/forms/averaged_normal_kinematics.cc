@@ -92,9 +92,7 @@ namespace Nacre
   std::unique_ptr<Kinematics>
   AveragedNormalKinematics::clone() const
   {
-    return std::make_unique<AveragedNormalKinematics>(discretization_,
-                                                      section_,
-                                                      membrane_strain_);
+    return std::make_unique<AveragedNormalKinematics>(*this);
   }
 
   void

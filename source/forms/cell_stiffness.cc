@@ -1,10 +1,35 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/simd.h>
 #include <nacre/forms/cell_stiffness.h>
 
 namespace Nacre
 {
+  namespace
+  {
+    NACRE_SIMD void
+    multiply_rows(const double *const D,
+                  const double *const b,
+                  const unsigned int  n,
+                  double *const       s)
+    {
+      for (unsigned int v = 0; v < 3; ++v)
+        for (unsigned int i = 0; i < n; ++i)
+          s[v * n + i] = D[3 * v] * b[i] + D[3 * v + 1] * b[n + i] +
+                         D[3 * v + 2] * b[2 * n + i];
+    }
+  } // namespace
+
+  void
+  multiply_voigt_rows(const VoigtMatrix<> &D,
+                      const double        *strain,
+                      const unsigned int   n,
+                      double              *stress)
+  {
+    multiply_rows(D.begin_raw(), strain, n, stress);
+  }
+
   void
   CellStiffness::reinit(const ShellCellValues &values,
                         const SectionLaw      &section,

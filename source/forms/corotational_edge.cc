@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/simd.h>
 #include <nacre/forms/corotational_kinematics.h>
 
 namespace Nacre
@@ -104,6 +105,43 @@ namespace Nacre
     }
   } // namespace
 
+  namespace
+  {
+    /**
+     * A component of d(R t0) = omega x R t0 and of what multiplies it:
+     * row = factors[0] jump + factors[1] mean + factors[2] d(R t0).
+     */
+    NACRE_SIMD void
+    turn_rows(const unsigned int                   n,
+              const std::array<double, 2>         &normal,
+              const std::array<const double *, 2> &omega,
+              const std::array<const double *, 2> &jump_and_mean,
+              const std::array<double, 3>         &factors,
+              double *__restrict const row)
+    {
+      const double *const jump   = jump_and_mean[0];
+      const double *const mean   = jump_and_mean[1];
+      const double *const omega1 = omega[0];
+      const double *const omega2 = omega[1];
+      const double        turn1  = factors[2] * normal[1];
+      const double        turn2  = factors[2] * normal[0];
+      const double        f      = factors[0];
+      const double        g      = factors[1];
+      for (unsigned int j = 0; j < n; ++j)
+        row[j] =
+          f * jump[j] + g * mean[j] + turn1 * omega1[j] - turn2 * omega2[j];
+    }
+
+    NACRE_SIMD void
+    add_row(const unsigned int  n,
+            const double *const from,
+            double *__restrict const to)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        to[j] += from[j];
+    }
+  } // namespace
+
   void
   CorotationalKinematics::fill_edge_derivatives(const ShellEdgeValues &edge,
                                                 const unsigned int     q)
@@ -124,11 +162,19 @@ namespace Nacre
           side.mean_factor * cross_product_3d(side.normal, side.mu);
       }
 
-    const auto   columns = tangent_rotation(edge_point_);
-    const auto  &d0      = edge_point_.initial_tangent();
-    const auto  &d       = edge_point_.tangent();
-    const double d_1     = d0 * edge.frame(0, q).a_con[0];
-    const double d_2     = d0 * edge.frame(0, q).a_con[1];
+    const auto          columns   = tangent_rotation(edge_point_);
+    const auto         &d0        = edge_point_.initial_tangent();
+    const auto         &d         = edge_point_.tangent();
+    const double        jump_by_d = jump_by_omega * d;
+    const double        mean_by_d = mean_by_omega * d;
+    Tensor<1, spacedim> jump_by_columns, mean_by_columns;
+    for (unsigned int c = 0; c < spacedim; ++c)
+      {
+        jump_by_columns[c] = jump_by_omega * columns[c];
+        mean_by_columns[c] = mean_by_omega * columns[c];
+      }
+    const double d_1 = d0 * edge.frame(0, q).a_con[0];
+    const double d_2 = d0 * edge.frame(0, q).a_con[1];
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
         const auto &side   = edge_point_.side(s);
@@ -148,12 +194,12 @@ namespace Nacre
                   side.mean_factor * side.hinge.moment[b] * side.normal[c];
                 if (is_consistent())
                   {
-                    const auto omega =
-                      (spin * side.deformed.t0[c]) * d + e * columns[c];
+                    // omega = spin t0[c] d + e columns[c]
+                    const double turn = spin * side.deformed.t0[c];
                     for (unsigned int k = 0; k < spacedim; ++k)
-                      omega_[k * n + j] += omega[k];
-                    jump_row_[j] += jump_by_omega * omega;
-                    mean_row_[j] += mean_by_omega * omega;
+                      omega_[k * n + j] += turn * d[k] + e * columns[c][k];
+                    jump_row_[j] += turn * jump_by_d + e * jump_by_columns[c];
+                    mean_row_[j] += turn * mean_by_d + e * mean_by_columns[c];
                   }
               }
           }
@@ -176,26 +222,23 @@ namespace Nacre
     const double g = edge_point_.moment_force(s);
     for (unsigned int c = 0; c < spacedim; ++c)
       {
-        // d(R t0) = omega x R t0
-        const unsigned int c1     = (c + 1) % spacedim;
-        const unsigned int c2     = (c + 2) % spacedim;
-        const double      *omega1 = &omega_[c1 * n];
-        const double      *omega2 = &omega_[c2 * n];
-        double            *df     = &edge_derivative_rows_[s](2 * q, c * n);
-        double            *dg     = &edge_derivative_rows_[s](2 * q + 1, c * n);
-        const double       t      = side.normal[c];
-        const double       t1     = side.normal[c1];
-        const double       t2     = side.normal[c2];
-        for (unsigned int j = 0; j < n; ++j)
-          {
-            const double turn = omega1[j] * t2 - omega2[j] * t1;
-            df[j]             = side.jump_factor * t *
-                      (fluxes.penalty * jump_row_[j] +
-                       fluxes.consistency * mean_row_[j]) +
-                    f * turn;
-            dg[j] =
-              side.mean_factor * t * fluxes.symmetry * jump_row_[j] + g * turn;
-          }
+        const unsigned int c1 = (c + 1) % spacedim;
+        const unsigned int c2 = (c + 2) % spacedim;
+        const double       t  = side.normal[c];
+        turn_rows(n,
+                  {{side.normal[c1], side.normal[c2]}},
+                  {{&omega_[c1 * n], &omega_[c2 * n]}},
+                  {{jump_row_.data(), mean_row_.data()}},
+                  {{side.jump_factor * t * fluxes.penalty,
+                    side.jump_factor * t * fluxes.consistency,
+                    f}},
+                  &edge_derivative_rows_[s](2 * q, c * n));
+        turn_rows(n,
+                  {{side.normal[c1], side.normal[c2]}},
+                  {{&omega_[c1 * n], &omega_[c2 * n]}},
+                  {{jump_row_.data(), mean_row_.data()}},
+                  {{side.mean_factor * t * fluxes.symmetry, 0., g}},
+                  &edge_derivative_rows_[s](2 * q + 1, c * n));
       }
   }
 
@@ -213,8 +256,7 @@ namespace Nacre
         {
           const double *entry = &product_(a, c * n);
           double       *row   = &terms.tangent(edge.dof(side, a, c), 0);
-          for (unsigned int j = 0; j < n; ++j)
-            row[j] += entry[j];
+          add_row(n, entry, row);
         }
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mutation.h>
+#include <nacre/base/simd.h>
 #include <nacre/forms/corotational_kinematics.h>
 
 namespace Nacre
@@ -9,6 +10,17 @@ namespace Nacre
   namespace
   {
     using Vector3 = Tensor<1, spacedim>;
+
+    /** y += v x. */
+    NACRE_SIMD void
+    add_scaled(const unsigned int  n,
+               const double        v,
+               const double *const x,
+               double *__restrict const y)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        y[j] += v * x[j];
+    }
 
     /** Displacements of the nodes; zero if @p u is empty. */
     void
@@ -84,19 +96,15 @@ namespace Nacre
                    membrane_strain == MembraneStrain::tied)
   {
     if (blends_integration(discretization.element(), membrane_strain))
-      reduced_points_ = std::make_unique<CellPoints>(
-        discretization,
-        discretization.element().reduced_quadrature(),
-        false);
+      reduced_points_.emplace(discretization,
+                              discretization.element().reduced_quadrature(),
+                              false);
   }
 
   std::unique_ptr<Kinematics>
   CorotationalKinematics::clone() const
   {
-    return std::make_unique<CorotationalKinematics>(discretization_,
-                                                    section_,
-                                                    membrane_strain_,
-                                                    tangent_type_);
+    return std::make_unique<CorotationalKinematics>(*this);
   }
 
   void
@@ -107,7 +115,7 @@ namespace Nacre
   {
     ShellCellValues &values = full_points_.values;
     values.reinit_frames(cell);
-    const double share = reduced_points_ != nullptr ?
+    const double share = reduced_points_.has_value() ?
                            full_integration_share(values, section_) :
                            1.;
     const bool   both  = share < 1.;
@@ -258,12 +266,7 @@ namespace Nacre
               first_row + points.membrane_rows[2 * k + alpha];
             const double *df = &force_rows_(s, 0);
             for (unsigned int c = 0; c < spacedim; ++c)
-              {
-                double      *dg = &derivative_rows_(r, c * n);
-                const double v  = vectors[alpha][c];
-                for (unsigned int j = 0; j < n; ++j)
-                  dg[j] += v * df[j];
-              }
+              add_scaled(n, vectors[alpha][c], df, &derivative_rows_(r, c * n));
           }
       }
     // ... and turn.

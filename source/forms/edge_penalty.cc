@@ -2,17 +2,62 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/forms/cell_stiffness.h>
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/hinge_form.h>
 
+#include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/lapack_support.h>
+#include <deal.II/lac/lapack_templates.h>
 
 namespace Nacre
 {
   namespace
   {
+    /** Lengths of the edges of a cell, with a point more than the form's. */
+    class Perimeter
+    {
+    public:
+      explicit Perimeter(const Discretization &discretization)
+        : quadrature_(discretization.degree() + 2)
+      {
+        const auto cell = discretization.element().reference_cell();
+        for (const auto face : cell.face_indices())
+          {
+            std::vector<Point<dim>> points(quadrature_.size());
+            QProjector<dim>::project_to_face(cell, quadrature_, face, points);
+            tables_.emplace_back(discretization.geometry_fe(), points);
+            directions_.push_back(
+              cell.vertex<dim>(cell.face_to_cell_vertices(face, 1, 1)) -
+              cell.vertex<dim>(cell.face_to_cell_vertices(face, 0, 1)));
+          }
+      }
+
+      double
+      length(const ArrayView<const Point<spacedim>> &nodes)
+      {
+        double sum = 0.;
+        for (unsigned int face = 0; face < tables_.size(); ++face)
+          {
+            tables_[face].evaluate(nodes, values_);
+            for (unsigned int q = 0; q < quadrature_.size(); ++q)
+              sum += quadrature_.weight(q) *
+                     (directions_[face][0] * values_.tangent(q, 0) +
+                      directions_[face][1] * values_.tangent(q, 1))
+                       .norm();
+          }
+        return sum;
+      }
+
+    private:
+      const QGauss<1>             quadrature_;
+      std::vector<GeometryTable>  tables_;
+      std::vector<Tensor<1, dim>> directions_;
+      GeometryTable::Values       values_;
+    };
+
     /** |A| / |dA| and lambda_K of one cell after another. */
     class CellBound
     {
@@ -23,11 +68,7 @@ namespace Nacre
         : section_(section)
         , values_(discretization, quadrature, false)
         , edge_(discretization)
-        , fe_nothing_(discretization.element().reference_cell())
-        , perimeter_values_(discretization.mapping(),
-                            fe_nothing_,
-                            QGauss<1>(discretization.degree() + 2),
-                            update_JxW_values)
+        , perimeter_(discretization)
         , discretization_(discretization)
       {}
 
@@ -38,91 +79,124 @@ namespace Nacre
         double area = 0.;
         for (unsigned int q = 0; q < values_.n_points(); ++q)
           area += values_.JxW(q);
+        size = area / perimeter_.length(discretization_.geometry_nodes(cell));
 
         // Rows m_nn sqrt(ds / D) on the whole boundary, in local dofs.
-        const unsigned int       n_points  = edge_.n_points();
-        double                   perimeter = 0.;
-        LAPACKFullMatrix<double> moments(values_.n_dofs(),
-                                         cell->n_faces() * n_points);
+        const unsigned int n_points = edge_.n_points();
+        moments_.reinit(cell->n_faces() * n_points, values_.n_dofs(), true);
         for (const auto face : cell->face_indices())
           {
-            perimeter_values_.reinit(
-              static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell),
-              face);
-            for (const double ds : perimeter_values_.get_JxW_values())
-              perimeter += ds;
             edge_.reinit(cell, face);
             for (unsigned int q = 0; q < n_points; ++q)
               {
                 hinge_.reinit(edge_, 0, q, section_);
                 const double weight =
                   std::sqrt(edge_.JxW(q) / hinge_.stiffness);
+                double *const row = &moments_(face * n_points + q, 0);
                 for (unsigned int a = 0; a < hinge_.moment.size(); ++a)
                   for (unsigned int c = 0; c < spacedim; ++c)
-                    moments(values_.dof(a, c), face * n_points + q) =
+                    row[values_.dof(a, c)] =
                       weight * hinge_.moment[a] * hinge_.t0[c];
               }
           }
-        size       = area / perimeter;
-        eigenvalue = largest_eigenvalue(moments);
+        eigenvalue = largest_eigenvalue();
       }
 
       double size       = 0.;
       double eigenvalue = 0.;
 
     private:
-      /**
-       * lambda_max of (M M^T, K) with M given and K the bending matrix of the
-       * cell, as that of the small matrix M^T K^-1 M.
-       */
-      double
-      largest_eigenvalue(const LAPACKFullMatrix<double> &moments)
+      /** Set bending_ to K, the bending matrix of the cell. */
+      void
+      fill_bending()
       {
-        const auto        &rows = values_.bending_rows();
-        FullMatrix<double> stress_rows(rows.m(), rows.n());
+        const auto &rows = values_.bending_rows();
+        stress_rows_.reinit(rows.m(), rows.n(), true);
         for (unsigned int q = 0; q < values_.n_points(); ++q)
           {
             const auto D =
               values_.JxW(q) *
               section_.stiffness(values_.frame(q), values_.point(q)).bending;
-            for (unsigned int v = 0; v < 3; ++v)
-              for (unsigned int w = 0; w < 3; ++w)
-                for (unsigned int i = 0; i < rows.n(); ++i)
-                  stress_rows(3 * q + v, i) += D[v][w] * rows(3 * q + w, i);
+            multiply_voigt_rows(D,
+                                &rows(3 * q, 0),
+                                rows.n(),
+                                &stress_rows_(3 * q, 0));
           }
-        FullMatrix<double> bending(rows.n(), rows.n());
-        rows.Tmmult(bending, stress_rows);
+        bending_.reinit(rows.n(), rows.n(), true);
+        rows.Tmmult(bending_, stress_rows_);
 
         // Displacements without bending strain have no moment either: a tiny
         // shift makes K regular and leaves the eigenvalues.
-        const double shift = 1e-11 * bending.linfty_norm();
-        for (unsigned int i = 0; i < bending.m(); ++i)
-          bending(i, i) += shift;
-
-        LAPACKFullMatrix<double> K(bending.m());
-        K = bending;
-        K.set_property(LAPACKSupport::symmetric);
-        K.compute_cholesky_factorization();
-        LAPACKFullMatrix<double> solution(moments);
-        K.solve(solution);
-
-        const unsigned int       n = moments.n();
-        LAPACKFullMatrix<double> small(n);
-        moments.Tmmult(small, solution);
-        Vector<double>     values;
-        FullMatrix<double> vectors;
-        small.compute_eigenvalues_symmetric(0., 1e30, 0., values, vectors);
-        return values.size() > 0 ? values[values.size() - 1] : 0.;
+        const double shift = 1e-11 * bending_.linfty_norm();
+        for (unsigned int i = 0; i < bending_.m(); ++i)
+          bending_(i, i) += shift;
       }
 
-      const SectionLaw &section_;
-      ShellCellValues   values_;
-      ShellEdgeValues   edge_;
-      /** Lengths of curved edges, with a point more than the form's. */
-      FE_Nothing<dim, spacedim>   fe_nothing_;
-      FEFaceValues<dim, spacedim> perimeter_values_;
-      HingeSide                   hinge_;
-      const Discretization       &discretization_;
+      /**
+       * lambda_max of (M^T M, K), M the rows of moments_, as that of the small
+       * matrix Y^T Y, Y = L^-1 M^T, K = L L^T.
+       */
+      double
+      largest_eigenvalue()
+      {
+        fill_bending();
+        // LAPACK's matrices are the transposes of ours.
+        const types::blas_int n   = bending_.m();
+        const types::blas_int m   = moments_.m();
+        const double          one = 1., zero = 0.;
+        types::blas_int       info = 0;
+        potrf("L", &n, &bending_(0, 0), &n, &info);
+        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("potrf", info));
+        trtrs("L",
+              "N",
+              "N",
+              &n,
+              &m,
+              &bending_(0, 0),
+              &n,
+              &moments_(0, 0),
+              &n,
+              &info);
+        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("trtrs", info));
+        small_.reinit(m, m, true);
+        syrk("L",
+             "T",
+             &m,
+             &n,
+             &one,
+             &moments_(0, 0),
+             &n,
+             &zero,
+             &small_(0, 0),
+             &m);
+        eigenvalues_.resize(m);
+        work_.resize(64 * m);
+        const types::blas_int n_work = work_.size();
+        syev("N",
+             "L",
+             &m,
+             &small_(0, 0),
+             &m,
+             eigenvalues_.data(),
+             work_.data(),
+             &n_work,
+             &info);
+        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("syev", info));
+        return eigenvalues_.back();
+      }
+
+      const SectionLaw     &section_;
+      ShellCellValues       values_;
+      ShellEdgeValues       edge_;
+      Perimeter             perimeter_;
+      HingeSide             hinge_;
+      const Discretization &discretization_;
+      FullMatrix<double>    moments_;
+      FullMatrix<double>    stress_rows_;
+      FullMatrix<double>    bending_;
+      FullMatrix<double>    small_;
+      std::vector<double>   eigenvalues_;
+      std::vector<double>   work_;
     };
   } // namespace
 

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/simd.h>
 #include <nacre/forms/linear_kinematics.h>
 
 namespace Nacre
 {
+  namespace
+  {
+    /** c = alpha a + beta b. */
+    NACRE_SIMD void
+    add_rows(const double        alpha,
+             const double *const a,
+             const double        beta,
+             const double *const b,
+             const unsigned int  n,
+             double *const       c)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        c[i] = alpha * a[i] + beta * b[i];
+    }
+  } // namespace
+
   LinearKinematics::LinearKinematics(const Discretization &discretization,
                                      const SectionLaw     &section,
                                      const MembraneStrain  membrane_strain)
@@ -16,18 +33,15 @@ namespace Nacre
                    membrane_strain == MembraneStrain::tied)
   {
     if (blends_integration(discretization.element(), membrane_strain))
-      reduced_values_ = std::make_unique<ShellCellValues>(
-        discretization,
-        discretization.element().reduced_quadrature(),
-        false);
+      reduced_values_.emplace(discretization,
+                              discretization.element().reduced_quadrature(),
+                              false);
   }
 
   std::unique_ptr<Kinematics>
   LinearKinematics::clone() const
   {
-    return std::make_unique<LinearKinematics>(discretization_,
-                                              section_,
-                                              membrane_strain_);
+    return std::make_unique<LinearKinematics>(*this);
   }
 
   double
@@ -43,18 +57,10 @@ namespace Nacre
         // K += B^T D B as dense products.
         stress_rows_.reinit(rows.m(), n, true);
         for (unsigned int q = 0; q < stiffness.size(); ++q)
-          {
-            const double *b[] = {&rows(3 * q, 0),
-                                 &rows(3 * q + 1, 0),
-                                 &rows(3 * q + 2, 0)};
-            for (unsigned int v = 0; v < 3; ++v)
-              {
-                double     *s = &stress_rows_(3 * q + v, 0);
-                const auto &d = stiffness[q][v];
-                for (unsigned int i = 0; i < n; ++i)
-                  s[i] = d[0] * b[0][i] + d[1] * b[1][i] + d[2] * b[2][i];
-              }
-          }
+          multiply_voigt_rows(stiffness[q],
+                              &rows(3 * q, 0),
+                              n,
+                              &stress_rows_(3 * q, 0));
         rows.Tmmult(terms.tangent, stress_rows_, true);
       }
     if (u.size() == 0)
@@ -83,7 +89,7 @@ namespace Nacre
     LocalTerms                                        &terms)
   {
     full_values_.reinit(cell);
-    const bool   reduced = (reduced_values_ != nullptr);
+    const bool   reduced = reduced_values_.has_value();
     const double share =
       reduced ? full_integration_share(full_values_, section_) : 1.;
 
@@ -113,19 +119,23 @@ namespace Nacre
   LinearKinematics::fill_edge_rows(const unsigned int q,
                                    const HingeFluxes &fluxes)
   {
-    const auto &jump     = hinge_.rotation_jump();
-    const auto &moment   = hinge_.mean_moment();
-    double     *v_jump   = &test_rows_(2 * q, 0);
-    double     *v_moment = &test_rows_(2 * q + 1, 0);
-    double     *u_jump   = &trial_rows_(2 * q, 0);
-    double     *u_moment = &trial_rows_(2 * q + 1, 0);
-    for (unsigned int i = 0; i < jump.size(); ++i)
-      {
-        v_jump[i]   = jump[i];
-        v_moment[i] = moment[i];
-        u_jump[i]   = fluxes.penalty * jump[i] + fluxes.consistency * moment[i];
-        u_moment[i] = fluxes.symmetry * jump[i];
-      }
+    const auto        &jump   = hinge_.rotation_jump();
+    const auto        &moment = hinge_.mean_moment();
+    const unsigned int n      = jump.size();
+    std::copy(jump.begin(), jump.end(), &test_rows_(2 * q, 0));
+    std::copy(moment.begin(), moment.end(), &test_rows_(2 * q + 1, 0));
+    add_rows(fluxes.penalty,
+             jump.data(),
+             fluxes.consistency,
+             moment.data(),
+             n,
+             &trial_rows_(2 * q, 0));
+    add_rows(fluxes.symmetry,
+             jump.data(),
+             0.,
+             moment.data(),
+             n,
+             &trial_rows_(2 * q + 1, 0));
   }
 
   void

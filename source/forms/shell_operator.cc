@@ -3,14 +3,12 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/mutation.h>
+#include <nacre/forms/matrix_pattern.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/meshworker/mesh_loop.h>
 
 #include <sstream>
@@ -39,6 +37,8 @@ namespace Nacre
   {
     LocalTerms                           terms;
     std::vector<types::global_dof_index> dofs;
+    /** Leading rows and columns of the tangent that the cell's has taken. */
+    unsigned int n_done = 0;
   };
 
   struct ShellOperator::CopyData
@@ -67,15 +67,32 @@ namespace Nacre
       return *this;
     }
 
-    /** Call @p add(terms, dofs) for the cell and its faces. */
+    /** Call @p add(terms, dofs, n_done) for the cell and its faces. */
     template <typename Function>
     void
     for_each(const Function &add) const
     {
       if (!dofs.empty())
-        add(terms, dofs);
+        add(terms, dofs, 0);
       for (unsigned int f = 0; f < n_faces; ++f)
-        add(faces[f].terms, faces[f].dofs);
+        add(faces[f].terms, faces[f].dofs, faces[f].n_done);
+    }
+
+    /**
+     * The cell's dofs are the first of each of its faces: add that block of
+     * the tangent to the cell's, which goes into the matrix anyway.
+     */
+    void
+    take_block(FaceCopy &face)
+    {
+      face.n_done = (wants_tangent ? dofs.size() : 0);
+      for (unsigned int i = 0; i < face.n_done; ++i)
+        {
+          const double *from = &face.terms.tangent(i, 0);
+          double       *to   = &terms.tangent(i, 0);
+          for (unsigned int j = 0; j < face.n_done; ++j)
+            to[j] += from[j];
+        }
     }
 
     FaceCopy &
@@ -84,6 +101,7 @@ namespace Nacre
       if (n_faces == faces.size())
         faces.emplace_back();
       faces[n_faces].terms.wants_tangent = wants_tangent;
+      faces[n_faces].n_done              = 0;
       return faces[n_faces++];
     }
   };
@@ -162,21 +180,7 @@ namespace Nacre
   ShellOperator::reinit_matrix(const AffineConstraints<double> &constraints,
                                Matrix                          &matrix) const
   {
-    const auto            &relevant = discretization_.locally_relevant_dofs();
-    DynamicSparsityPattern pattern(relevant);
-    DoFTools::make_flux_sparsity_pattern(discretization_.dof_handler(),
-                                         pattern,
-                                         constraints,
-                                         false);
-    SparsityTools::distribute_sparsity_pattern(
-      pattern,
-      discretization_.locally_owned_dofs(),
-      discretization_.communicator(),
-      relevant);
-    matrix.reinit(discretization_.locally_owned_dofs(),
-                  discretization_.locally_owned_dofs(),
-                  pattern,
-                  discretization_.communicator());
+    make_matrix_pattern(discretization_, constraints, matrix);
   }
 
   void
@@ -213,18 +217,20 @@ namespace Nacre
     FullMatrix<double>     tangent;
     Energies               sum;
     loop(u, inertia, true, [&](const CopyData &copy) {
-      copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
+      copy.for_each([&](const LocalTerms  &terms,
+                        const auto        &dofs,
+                        const unsigned int n_done) {
         force = terms.residual;
         force *= -1.;
         if (u == nullptr || !symmetrizes_)
-          scatter.add(terms.tangent, force, dofs);
+          scatter.add(terms.tangent, force, dofs, n_done);
         else
           {
             // Nearly symmetric: its symmetric part iterates as well, and
             // suits a symmetric solver.
             tangent = terms.tangent;
             tangent.symmetrize();
-            scatter.add(tangent, force, dofs);
+            scatter.add(tangent, force, dofs, n_done);
           }
         sum += terms.energies;
       });
@@ -243,12 +249,13 @@ namespace Nacre
     result = 0.;
     Energies sum;
     loop(&u, inertia, false, [&](const CopyData &copy) {
-      copy.for_each([&](const LocalTerms &terms, const auto &dofs) {
-        result.add(dofs,
-                   std::vector<double>(terms.residual.begin(),
-                                       terms.residual.end()));
-        sum += terms.energies;
-      });
+      copy.for_each(
+        [&](const LocalTerms &terms, const auto &dofs, unsigned int) {
+          result.add(dofs,
+                     std::vector<double>(terms.residual.begin(),
+                                         terms.residual.end()));
+          sum += terms.energies;
+        });
     });
     result.compress(VectorOperation::add);
     AffineConstraints<double> none;
@@ -294,6 +301,7 @@ namespace Nacre
                                          penalty_.interior(cell, neighbor),
                                          scratch.u,
                                          face.terms);
+      copy.take_block(face);
     };
     const auto boundary_worker = [&](const Iterator    &cell,
                                      const unsigned int f,
@@ -394,6 +402,8 @@ namespace Nacre
   ShellOperator::subtract_surface_loads(const ShellCellValues  &values,
                                         dealii::Vector<double> &residual) const
   {
+    const auto               &shapes = values.shapes();
+    const unsigned int *const dofs   = discretization_.node_dofs().data();
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
         const auto   x            = values.point(q);
@@ -401,9 +411,9 @@ namespace Nacre
         const auto   load =
           values.JxW(q) *
           loads_.force_per_area(x, values.frame(q).t0, area_density);
-        for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
-            residual[values.dof(a, c)] -= values.shapes().value(q, a) * load[c];
+            residual[dofs[spacedim * a + c]] -= shapes.value(q, a) * load[c];
       }
   }
 
@@ -444,6 +454,7 @@ namespace Nacre
                    scratch.u,
                    *scratch.kinematics,
                    face.terms);
+    copy.take_block(face);
   }
 
   void

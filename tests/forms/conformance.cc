@@ -9,6 +9,8 @@
 #include <nacre/forms/linear_kinematics.h>
 #include <nacre/mechanics/shell_strain.h>
 
+#include <deal.II/fe/fe_values.h>
+
 #include <numeric>
 
 /** A section of which only one stiffness counts. */

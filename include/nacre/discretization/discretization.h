@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/element.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>
 
 #include <deal.II/distributed/tria_base.h>
@@ -110,6 +111,25 @@ namespace Nacre
     const FiniteElement<dim, spacedim> &
     scalar_fe() const;
 
+    /** The scalar element of the geometry (18). */
+    const FiniteElement<dim, spacedim> &
+    geometry_fe() const
+    {
+      return geometry_fe_.base_element(0);
+    }
+
+    /**
+     * Positions X0 (length) of the nodes of geometry_fe() on an active cell
+     * that this rank owns or has as a ghost: phi0 = sum_b N^b X0^b (18).
+     */
+    ArrayView<const Point<spacedim>>
+    geometry_nodes(
+      const Triangulation<dim, spacedim>::cell_iterator &cell) const
+    {
+      const std::size_t n = geometry_to_nodes_.n();
+      return {geometry_nodes_.data() + cell->active_cell_index() * n, n};
+    }
+
     /** The nodes a of the local edge @p face of any cell. */
     const std::vector<unsigned int> &
     face_nodes(const unsigned int face) const
@@ -119,7 +139,10 @@ namespace Nacre
 
     /** Local dof of the component c of the node a: index 3 a + c. */
     const std::vector<unsigned int> &
-    node_dofs() const;
+    node_dofs() const
+    {
+      return node_dofs_;
+    }
 
     const IndexSet &
     locally_owned_dofs() const;
@@ -164,10 +187,9 @@ namespace Nacre
                      const Point<dim> &)> &position,
                    const unsigned int      mapping_degree);
 
-    /** Positions of the geometry's nodes on an active cell. */
-    std::vector<Point<spacedim>>
-    geometry_positions(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) const;
+    /** Fill geometry_nodes_ from geometry_. */
+    void
+    store_geometry_nodes();
 
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation_;
 
@@ -185,6 +207,8 @@ namespace Nacre
     FESystem<dim, spacedim>                    geometry_fe_;
     DoFHandler<dim, spacedim>                  geometry_dof_handler_;
     LinearAlgebra::distributed::Vector<double> geometry_;
+    /** By active cell index and node of the geometry. */
+    std::vector<Point<spacedim>> geometry_nodes_;
     /** Geometry's shape functions at the displacement nodes. */
     FullMatrix<double>                      geometry_to_nodes_;
     std::unique_ptr<Mapping<dim, spacedim>> mapping_;

@@ -6,6 +6,10 @@
 
 #include <nacre/base/types.h>
 
+#include <deal.II/base/array_view.h>
+
+#include <deal.II/lac/full_matrix.h>
+
 #include <array>
 #include <vector>
 
@@ -13,7 +17,9 @@ namespace dealii
 {
   template <int dim, int spacedim>
   class FiniteElement;
-}
+  template <int dim, int spacedim>
+  class FE_Q;
+} // namespace dealii
 
 namespace Nacre
 {
@@ -63,10 +69,89 @@ namespace Nacre
     }
 
   private:
+    /** All products of one-dimensional polynomials at once. */
+    void
+    fill_products(const FE_Q<dim, spacedim>     &fe,
+                  const std::vector<Point<dim>> &points);
+
+    void
+    append(const double          value,
+           const Tensor<1, dim> &gradient,
+           const Tensor<2, dim> &hessian);
+
     unsigned int                       n_nodes_;
     std::vector<double>                values_;    // [point][node]
     std::vector<std::array<double, 2>> gradients_; // [point][node]
     std::vector<std::array<double, 3>> hessians_;  // [point][node]
+  };
+
+  /**
+   * The geometry phi0 = sum_b N^b X0^b (18) and its derivatives at fixed points
+   * of the reference cell, all in one dense product.
+   */
+  class GeometryTable
+  {
+  public:
+    /** @param fe the geometry's element @param points points in [0, 1]^2 */
+    GeometryTable(const FiniteElement<dim, spacedim> &fe,
+                  const std::vector<Point<dim>>      &points);
+
+    unsigned int
+    n_points() const
+    {
+      return rows_.n() / n_kinds;
+    }
+
+    /** phi0 and its derivatives at all points of one cell (length). */
+    class Values
+    {
+    public:
+      Point<spacedim>
+      position(const unsigned int q) const
+      {
+        return Point<spacedim>(get(q, 0));
+      }
+
+      /** phi0,1 or phi0,2. */
+      Tensor<1, spacedim>
+      tangent(const unsigned int q, const unsigned int alpha) const
+      {
+        return get(q, 1 + alpha);
+      }
+
+      /** phi0,11, phi0,22, phi0,12. */
+      std::array<Tensor<1, spacedim>, 3>
+      second_derivatives(const unsigned int q) const
+      {
+        return {{get(q, 3), get(q, 4), get(q, 5)}};
+      }
+
+    private:
+      Tensor<1, spacedim>
+      get(const unsigned int q, const unsigned int kind) const
+      {
+        Tensor<1, spacedim> x;
+        for (unsigned int c = 0; c < spacedim; ++c)
+          x[c] = values_(c, n_kinds * q + kind);
+        return x;
+      }
+
+      FullMatrix<double> nodes_;  // [node][component]
+      FullMatrix<double> values_; // [component][6 point + kind]
+
+      friend class GeometryTable;
+    };
+
+    /** @param nodes positions X0 (length) of the element's nodes */
+    void
+    evaluate(const ArrayView<const Point<spacedim>> &nodes,
+             Values                                 &values) const;
+
+  private:
+    /** Value, two first and three second derivatives. */
+    static constexpr unsigned int n_kinds = 6;
+
+    FullMatrix<double> rows_; // [node][6 point + kind]
   };
 } // namespace Nacre
 

@@ -10,12 +10,11 @@
 #include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/surface_frame.h>
 
-#include <deal.II/fe/fe_interface_values.h>
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
+#include <deal.II/base/quadrature.h>
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,9 +40,8 @@ namespace Nacre
                     const Quadrature<dim> &quadrature,
                     const bool             tied);
 
-    ShellCellValues(const ShellCellValues &other);
 
-    /** Frames and the rows of the linear strains. */
+    /** Frames and the rows of the linear strains; of tying frames a_cov only. */
     void
     reinit(const Triangulation<dim, spacedim>::cell_iterator &cell);
 
@@ -73,15 +71,14 @@ namespace Nacre
     SectionPoint
     point(const unsigned int q) const
     {
-      return {fe_values_.quadrature_point(q),
-              fe_values_.get_cell()->material_id()};
+      return {geometry_.position(q), material_id_};
     }
 
     /** Area element times weight (length^2). */
     double
     JxW(const unsigned int q) const
     {
-      return fe_values_.JxW(q);
+      return frames_[q].j0 * quadrature_.weight(q);
     }
 
     const ShapeTable &
@@ -133,6 +130,10 @@ namespace Nacre
     }
 
   private:
+    /** Frames at the points, and the geometry at the tying points. */
+    void
+    evaluate(const Triangulation<dim, spacedim>::cell_iterator &cell);
+
     void
     fill_membrane_rows();
 
@@ -142,15 +143,18 @@ namespace Nacre
     void
     fill_bending_rows();
 
-    const Discretization     &discretization_;
-    const Quadrature<dim>     quadrature_;
-    const bool                tied_;
-    const MembraneTying       tying_;
-    FE_Nothing<dim, spacedim> fe_nothing_;
-    FEValues<dim, spacedim>   fe_values_;
-    FEValues<dim, spacedim>   tying_fe_values_;
-    ShapeTable                shapes_;
-    ShapeTable                tying_shapes_;
+    const Discretization &discretization_;
+    const Quadrature<dim> quadrature_;
+    const bool            tied_;
+    const MembraneTying   tying_;
+    const ShapeTable      shapes_;
+    const ShapeTable      tying_shapes_;
+    const GeometryTable   geometry_table_;
+    const GeometryTable   tying_geometry_table_;
+
+    GeometryTable::Values geometry_;
+    GeometryTable::Values tying_geometry_;
+    types::material_id    material_id_ = 0;
 
     std::vector<SurfaceFrame<>> frames_;
     std::vector<SurfaceFrame<>> tying_frames_;
@@ -161,7 +165,7 @@ namespace Nacre
 
   /**
    * Frames and shape functions at the points of an edge, on both sides:
-   * FEInterfaceValues for shells. Side 0 is K^-, side 1 is K^+; on the
+   * FEInterfaceValues for shells, computed from the nodes' positions alone. Side 0 is K^-, side 1 is K^+; on the
    * boundary and for a single cell there is side 0 only.
    *
    * Conventions, here and nowhere else: jump = plus - minus; the conormal
@@ -174,7 +178,6 @@ namespace Nacre
   public:
     explicit ShellEdgeValues(const Discretization &discretization);
 
-    ShellEdgeValues(const ShellEdgeValues &other);
 
     using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
@@ -220,15 +223,14 @@ namespace Nacre
     double
     JxW(const unsigned int q) const
     {
-      return interface_values_.JxW(q);
+      return JxW_[q];
     }
 
     /** Position (length), and the region of the cell of the side. */
     SectionPoint
     point(const unsigned int q, const unsigned int side = 0) const
     {
-      const auto &values = interface_values_.get_fe_face_values(side);
-      return {values.quadrature_point(q), values.get_cell()->material_id()};
+      return {geometry_[side].position(q), material_ids_[side]};
     }
 
     const SurfaceFrame<> &
@@ -238,11 +240,10 @@ namespace Nacre
     }
 
     /** nu of the side, at the point @p q: nu^- = n^-, nu^+ = -n^+. */
-    Tensor<1, spacedim>
+    const Tensor<1, spacedim> &
     conormal(const unsigned int side, const unsigned int q) const
     {
-      return (side == 0 ? 1. : -1.) *
-             interface_values_.get_fe_face_values(side).normal_vector(q);
+      return conormals_[side][q];
     }
 
     /**
@@ -256,7 +257,8 @@ namespace Nacre
     const ShapeTable &
     shapes(const unsigned int side) const
     {
-      return *shapes_[side];
+      const auto [face, kind] = table_of_side_[side];
+      return tables_[face][kind]->shapes;
     }
 
     /** Index within dof_indices() of a side's node and component. */
@@ -269,25 +271,56 @@ namespace Nacre
     }
 
   private:
-    void
-    make_tables();
+    /** Points of one position of an edge in the reference cell. */
+    struct Table
+    {
+      Table(const Discretization          &discretization,
+            const std::vector<Point<dim>> &points);
+
+      ShapeTable    shapes;
+      GeometryTable geometry;
+    };
 
     void
-    update(const std::array<cell_iterator, 2> &cells,
-           const std::array<unsigned int, 2>  &faces,
-           const std::array<unsigned int, 2>  &subfaces);
+    make_directions();
 
-    const Discretization            &discretization_;
-    const Quadrature<1>              quadrature_;
-    FEInterfaceValues<dim, spacedim> interface_values_;
+    /** The table, made when it is first asked for. */
+    const Table &
+    table(const unsigned int face, const unsigned int kind);
+
+    /** Frames, conormals and shape functions of one side. */
+    void
+    update_side(const unsigned int   side,
+                const cell_iterator &cell,
+                const unsigned int   face,
+                const unsigned int   subface);
+
+    /** Number the dofs of both sides, shared ones once. */
+    void
+    join_dofs(const std::array<cell_iterator, 2> &cells);
+
+    const Discretization &discretization_;
+    const Quadrature<1>   quadrature_;
     /** [face][subface 0, subface 1, whole face, whole face backwards]. */
-    std::vector<std::vector<ShapeTable>>       tables_;
-    unsigned int                               n_sides_ = 0;
-    std::array<const ShapeTable *, 2>          shapes_;
-    std::array<std::vector<SurfaceFrame<>>, 2> frames_;
-    std::array<std::vector<unsigned int>, 2>   joint_dofs_;
-    std::array<std::vector<unsigned int>, 2>   local_to_joint_;
-    std::vector<types::global_dof_index>       dof_indices_;
+    std::vector<std::array<std::optional<Table>, 4>> tables_;
+    /** Of each face of the reference cell: along it, its length included. */
+    std::vector<Tensor<1, dim>> directions_;
+    /** Whether direction x normal points outward (+1) or inward (-1). */
+    std::vector<double> outward_;
+
+    unsigned int n_sides_ = 0;
+    /** Face and kind of each side's table. */
+    std::array<std::pair<unsigned int, unsigned int>, 2> table_of_side_;
+    std::array<GeometryTable::Values, 2>                 geometry_;
+    std::array<types::material_id, 2>                    material_ids_;
+    std::array<std::vector<SurfaceFrame<>>, 2>           frames_;
+    std::array<std::vector<Tensor<1, spacedim>>, 2>      conormals_;
+    std::vector<double>                                  JxW_;
+    std::array<std::vector<unsigned int>, 2>             joint_dofs_;
+    std::vector<types::global_dof_index>                 dof_indices_;
+    std::array<std::vector<types::global_dof_index>, 2>  cell_dofs_;
+    /** Index 3 a + c of each local dof. */
+    std::vector<unsigned int> local_to_node_;
   };
 } // namespace Nacre
 

@@ -27,6 +27,16 @@ namespace Nacre
   };
 
   /**
+   * stress = D strain, for the three Voigt rows of strains and resultants of
+   * @p n dofs each.
+   */
+  void
+  multiply_voigt_rows(const VoigtMatrix<> &D,
+                      const double        *strain,
+                      const unsigned int   n,
+                      double              *stress);
+
+  /**
    * f = min(1, h^2 / |K|) of MembraneStrain::reduced on the cell of
    * @p values, h the mean thickness.
    */

@@ -9,6 +9,8 @@
 #include <nacre/forms/corotational_edge.h>
 #include <nacre/forms/kinematics.h>
 
+#include <optional>
+
 namespace Nacre
 {
   /**
@@ -137,7 +139,7 @@ namespace Nacre
     const TangentType     tangent_type_;
     CellPoints            full_points_;
     /** p x p points, for reduced integration only. */
-    std::unique_ptr<CellPoints> reduced_points_;
+    std::optional<CellPoints> reduced_points_;
 
     CorotationalMembrane<double> membrane_;
     CorotationalBending<double>  bending_;

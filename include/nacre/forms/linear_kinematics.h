@@ -8,6 +8,8 @@
 #include <nacre/forms/hinge_form.h>
 #include <nacre/forms/kinematics.h>
 
+#include <optional>
+
 namespace Nacre
 {
   /**
@@ -85,7 +87,7 @@ namespace Nacre
 
     ShellCellValues full_values_;
     /** p x p points, for reduced integration only. */
-    std::unique_ptr<ShellCellValues> reduced_values_;
+    std::optional<ShellCellValues> reduced_values_;
 
     CellStiffness      stiffness_;
     FullMatrix<double> stress_rows_;
