@@ -156,6 +156,7 @@ namespace Nacre
                             const bool       search)
   {
     system_.set_time(state.time + dt);
+    system_.keep_tangent(parameters_.keeps_tangent);
     auto parameters          = parameters_.newton;
     parameters.max_increment = 100. * system_.size();
     const NewtonSolver newton(parameters);
@@ -179,6 +180,7 @@ namespace Nacre
   {
     const MotionState &start = state.motion;
     system_.set_time(state.time + dt);
+    system_.keep_tangent(parameters_.keeps_tangent);
     auto parameters          = parameters_.newton;
     parameters.max_increment = 100. * system_.size();
     const NewtonSolver newton(parameters);
@@ -217,6 +219,7 @@ namespace Nacre
   PathAnalysis::relax(const PathState &state, const double dt)
   {
     system_.set_time(state.time + dt);
+    system_.keep_tangent(false);
     const unsigned int max_iterations = 40 * parameters_.newton.max_iterations;
     const double       softest =
       1e-10 * system_.stiffness_to_mass(state.motion.u, *mass_);

@@ -78,6 +78,14 @@ namespace Nacre
                   "Factor of the increments, for Tangent = frozen.",
                   prm,
                   Patterns::Double(0.01, 1.));
+    add_parameter("Tangent updates",
+                  tangent_updates_text_,
+                  "every iteration: Newton's method; every step: the factors "
+                  "of the first iteration serve the whole step, which takes "
+                  "more, but cheaper iterations, and tells the stability at "
+                  "its start only. Dynamic relaxation updates always.",
+                  prm,
+                  Patterns::Selection("every iteration|every step"));
     add_parameter("Line search",
                   line_search_text_,
                   "automatic: when a step failed without it.",
@@ -131,6 +139,7 @@ namespace Nacre
     line_search                             = static_cast<LineSearch>(
       std::find(searches.begin(), searches.end(), line_search_text_) -
       searches.begin());
+    keeps_tangent       = (tangent_updates_text_ == "every step");
     const auto &schemes = time_scheme_names();
     scheme              = static_cast<TimeScheme>(
       std::find(schemes.begin(), schemes.end(), scheme_text_) -

@@ -5,6 +5,9 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/solvers/direct_solver.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Nacre
 {
   ShellSystem::ShellSystem(const Discretization &discretization,
@@ -60,6 +63,7 @@ namespace Nacre
     AffineConstraints<double> homogeneous(constraints());
     for (const auto &line : constraints().get_lines())
       homogeneous.set_inhomogeneity(line.index, 0.);
+    has_tangent_           = false;
     Vector right_hand_side = owned_vector(), a = owned_vector();
     mass.assemble_system(homogeneous,
                          with_ghosts(force),
@@ -75,6 +79,7 @@ namespace Nacre
   double
   ShellSystem::stiffness_to_mass(const Vector &u, const MassTerms &mass)
   {
+    has_tangent_  = false;
     Vector unused = owned_vector();
     shell_operator_.assemble(with_ghosts(u), constraints(), matrix_, unused);
     double trace = 0.;
@@ -143,6 +148,37 @@ namespace Nacre
     return result;
   }
 
+  bool
+  ShellSystem::can_keep_tangent(const AffineConstraints<double> &constraints,
+                                const Vector                    &u) const
+  {
+    if (!keeps_tangent_ || !has_tangent_)
+      return false;
+    // Prescribed increments would need the columns that were eliminated.
+    double increment = 0.;
+    for (const auto &line : constraints.get_lines())
+      increment = std::max(increment, std::abs(line.inhomogeneity));
+    const double u_max = u.linfty_norm();
+    return Utilities::MPI::max(increment, discretization_.communicator()) <=
+           1e-12 * u_max;
+  }
+
+  void
+  ShellSystem::condense(const AffineConstraints<double> &constraints,
+                        Vector                          &r) const
+  {
+    Vector moved = owned_vector();
+    for (const auto &line : constraints.get_lines())
+      if (discretization_.locally_owned_dofs().is_element(line.index))
+        {
+          for (const auto &[dof, weight] : line.entries)
+            moved(dof) += weight * r(line.index);
+          moved(line.index) -= r(line.index);
+        }
+    moved.compress(VectorOperation::add);
+    r += moved;
+  }
+
   NewtonSolver::Step
   ShellSystem::solve_linearised(const Vector  &u,
                                 const Vector  &end,
@@ -153,12 +189,22 @@ namespace Nacre
     const Vector ghosted     = with_ghosts(u);
     const auto   constraints = increment_constraints(with_ghosts(end), share);
     Vector       right_hand_side = owned_vector();
-    energies_                    = shell_operator_.assemble(ghosted,
-                                         constraints,
-                                         matrix_,
-                                         right_hand_side,
-                                         inertia);
-    solver_.prepare({matrix_, constraints, &ghosted});
+    if (can_keep_tangent(constraints, u))
+      {
+        energies_ = shell_operator_.residual(ghosted, right_hand_side, inertia);
+        right_hand_side *= -1.;
+        condense(constraints, right_hand_side);
+      }
+    else
+      {
+        energies_ = shell_operator_.assemble(ghosted,
+                                             constraints,
+                                             matrix_,
+                                             right_hand_side,
+                                             inertia);
+        solver_.prepare({matrix_, constraints, &ghosted});
+        has_tangent_ = true;
+      }
     du = 0.;
     solver_.solve(du, right_hand_side);
 

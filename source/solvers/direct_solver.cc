@@ -244,6 +244,15 @@ namespace Nacre
   }
 
 
+  void
+  DirectSolver::substitute(TrilinosWrappers::MPI::Vector       &x,
+                           const TrilinosWrappers::MPI::Vector &b) const
+  {
+    Assert(implementation_->is_factorised, ExcNotInitialized());
+    implementation_->factors->substitute(x, b);
+  }
+
+
   double
   DirectSolver::factor_memory(const TrilinosWrappers::SparseMatrix &matrix)
   {

@@ -56,6 +56,8 @@ namespace Nacre
 
     NewtonSolver::Parameters newton;
     LineSearch               line_search = LineSearch::automatic;
+    /** Factorise in the first iteration of a step only. */
+    bool keeps_tangent = false;
 
     TimeScheme       scheme          = TimeScheme::generalised_alpha;
     double           spectral_radius = 0.8;
@@ -74,6 +76,7 @@ namespace Nacre
     std::string minimum_time_step_text_    = "default";
     std::string maximum_time_step_text_    = "default";
     std::string line_search_text_          = "automatic";
+    std::string tangent_updates_text_      = "every iteration";
     std::string scheme_text_               = "generalised alpha";
     std::string initial_displacement_text_ = "0, 0, 0";
     std::string initial_velocity_text_     = "0, 0, 0";

@@ -44,6 +44,17 @@ namespace Nacre
     void
     set_load_time(const double time);
 
+    /**
+     * From now on solve with a new tangent always, or, if @p is_kept, with the
+     * next one for as long as prescribed displacements don't change.
+     */
+    void
+    keep_tangent(const bool is_kept)
+    {
+      keeps_tangent_ = is_kept;
+      has_tangent_   = false;
+    }
+
     /** Factor of the loads at the time of set_time(). */
     double
     load_factor() const
@@ -137,6 +148,16 @@ namespace Nacre
     }
 
   private:
+    /** Whether the tangent is kept, and the increments of @p constraints are
+     * zero but for round-off at the displacement @p u. */
+    bool
+    can_keep_tangent(const AffineConstraints<double> &constraints,
+                     const Vector                    &u) const;
+
+    /** Move the constrained entries to those that they depend on. */
+    void
+    condense(const AffineConstraints<double> &constraints, Vector &r) const;
+
     /** Constraints of du such that end + du / share fulfils those of the time. */
     AffineConstraints<double>
     increment_constraints(const Vector &ghosted_end, const double share) const;
@@ -152,6 +173,8 @@ namespace Nacre
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
     LinearSolver                           &solver_;
+    bool                                    keeps_tangent_ = false;
+    bool                                    has_tangent_   = false;
     Energies                                energies_;
   };
 } // namespace Nacre

@@ -60,6 +60,11 @@ namespace Nacre
     solve(TrilinosWrappers::MPI::Vector       &x,
           const TrilinosWrappers::MPI::Vector &b) override;
 
+    /** x = A^{-1} b of the factors alone, for preconditioners. Collective. */
+    void
+    substitute(TrilinosWrappers::MPI::Vector       &x,
+               const TrilinosWrappers::MPI::Vector &b) const;
+
     /**
      * Analyse @p matrix, as factorize() does and will not do again, and
      * estimate the memory (GB) that its factors take on all ranks together.
