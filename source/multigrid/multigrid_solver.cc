@@ -35,8 +35,7 @@ namespace Nacre
     PatchExtent
     patch_extent(const Element &element)
     {
-      return element.degree == 2 ? PatchExtent::closed_star :
-                                   PatchExtent::star;
+      return element.degree == 2 ? PatchExtent::closed_star : PatchExtent::star;
     }
 
     /** Sweeps before and after each coarse correction. */

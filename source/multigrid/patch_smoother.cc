@@ -56,8 +56,8 @@ namespace Nacre
                         const VertexPatches &patches,
                         const unsigned int   n_steps)
   {
-    matrix_  = &matrix;
-    n_steps_ = n_steps;
+    matrix_                 = &matrix;
+    n_steps_                = n_steps;
     const auto &partitioner = *matrix.partitioner();
     position_.assign(matrix.n_local(), -1);
     scaling_.assign(matrix.n_local(), 0.);

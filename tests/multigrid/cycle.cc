@@ -6,7 +6,6 @@
 // any number of ranks. An indefinite matrix is found out.
 
 #include "multigrid_case.h"
-
 #include <nacre/solvers/direct_solver.h>
 
 using namespace MultigridTests;
@@ -141,7 +140,7 @@ test(const std::string         &name,
 {
   const Case        shell(text, thickness);
   KinematicsOptions options(default_membrane_strain(element.type));
-  const auto   discretization = shell.discretize(element, n_refinements, markers);
+  const auto discretization = shell.discretize(element, n_refinements, markers);
   const System system(shell, *discretization, options);
   check_solution(name + ", " + Tests::label(element),
                  shell,
@@ -155,13 +154,13 @@ test(const std::string         &name,
 void
 test_corotational(const Element &element, const unsigned int max_iterations)
 {
-  const Case         shell(roof);
-  const auto         discretization = shell.discretize(element, 3);
-  const System       linear(shell, *discretization, {});
-  const auto         u = some_displacement(*discretization, linear, 0.5);
-  KinematicsOptions  options;
-  options.model   = KinematicsModel::corotational;
-  options.tangent = TangentType::symmetric;
+  const Case        shell(roof);
+  const auto        discretization = shell.discretize(element, 3);
+  KinematicsOptions options(default_membrane_strain(element.type));
+  const System      linear(shell, *discretization, options);
+  const auto        u = some_displacement(*discretization, linear, 0.5);
+  options.model       = KinematicsModel::corotational;
+  options.tangent     = TangentType::symmetric;
   const System system(shell, *discretization, options, &u);
   check_solution("co-rotational, " + Tests::label(element),
                  shell,
@@ -176,17 +175,17 @@ test_corotational(const Element &element, const unsigned int max_iterations)
 void
 test_indefinite()
 {
-  const Case           shell(roof);
-  const Element        element{ElementType::lagrange, 3};
-  const auto           discretization = shell.discretize(element, 2);
-  const System         system(shell, *discretization, {}, nullptr, 0.01);
-  ShellDescription     description{shell.midsurface,
+  const Case       shell(roof);
+  const Element    element{ElementType::lagrange, 3};
+  const auto       discretization = shell.discretize(element, 2);
+  const System     system(shell, *discretization, {}, nullptr, 0.01);
+  ShellDescription description{shell.midsurface,
                                shell.section,
                                shell.conditions,
                                shell.loads,
                                {},
                                0.01};
-  bool                 is_found = false;
+  bool             is_found = false;
   try
     {
       MultigridSolver solver(*discretization, description, {});
@@ -224,5 +223,6 @@ main(int argc, char **argv)
   test("hanging nodes", roof, Tests::serendipity, 3, 16, {corner, corner});
   test_corotational({lagrange, 2}, 12);
   test_corotational({lagrange, 3}, 12);
+  test_corotational(Tests::triangle, 15);
   test_indefinite();
 }

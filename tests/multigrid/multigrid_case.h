@@ -5,7 +5,6 @@
 #define nacre_tests_multigrid_case_h
 
 #include "../tests_common.h"
-
 #include <nacre/base/expression.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/kinematics.h>
