@@ -161,6 +161,27 @@ namespace Nacre
     }
 
 
+    /**
+     * Values at the nodes of a cell from those at the nodes of a child of it;
+     * rows of nodes outside the child are zero. deal.II's restriction of
+     * triangles is a projection: there, each node of the cell is one of a
+     * child, at which the other shape functions of the cell vanish.
+     */
+    FullMatrix<double>
+    interpolation_matrix(const FiniteElement<dim, spacedim> &fe,
+                         const unsigned int                  child)
+    {
+      if (fe.reference_cell() == ReferenceCells::Quadrilateral)
+        return fe.get_restriction_matrix(child);
+      FullMatrix<double>        R(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
+      const FullMatrix<double> &P = fe.get_prolongation_matrix(child);
+      for (unsigned int a = 0; a < R.m(); ++a)
+        for (unsigned int b = 0; b < R.n(); ++b)
+          R(b, a) = std::abs(P(a, b) - 1.) < 1e-10 ? 1. : 0.;
+      return R;
+    }
+
+
     /** Add up the terms of equal dofs, leave out zeros. */
     void
     simplify(Line &line)
@@ -386,16 +407,16 @@ namespace Nacre
     TrilinosWrappers::MPI::Vector own_values(owned, comm);
     std::map<unsigned int, std::vector<std::pair<Dof, double>>> foreign;
 
+    std::vector<FullMatrix<double>> matrices;
+    for (unsigned int child = 0; child < 4; ++child)
+      matrices.push_back(interpolation_matrix(fine_.scalar_fe(), child));
     std::vector<Dof> dofs(node_dofs.size());
     auto             coarse_cell = coarse_cells_.begin();
     for (const auto &cell : fine_.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const bool is_same = (coarse_cell->child == no_child);
-          // Row b: the value at the coarse node b, zero if it lies elsewhere.
-          const FullMatrix<double> &R =
-            fine_.scalar_fe().get_restriction_matrix(
-              is_same ? 0 : coarse_cell->child);
+          const bool  is_same = (coarse_cell->child == no_child);
+          const auto &R       = matrices[is_same ? 0 : coarse_cell->child];
           cell->get_dof_indices(dofs);
           for (unsigned int b = 0; b < n_nodes; ++b)
             {

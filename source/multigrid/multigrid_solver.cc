@@ -272,7 +272,7 @@ namespace Nacre
     TrilinosVector x(owned, level.discretization->communicator());
     TrilinosVector b(x);
     copy_entries(b, level.b);
-    level.direct->solve(x, b);
+    level.direct->substitute(x, b);
     copy_entries(level.x, x);
   }
 

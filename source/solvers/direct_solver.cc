@@ -278,6 +278,15 @@ namespace Nacre
   }
 
 
+  void
+  DirectSolver::substitute(TrilinosWrappers::MPI::Vector       &x,
+                           const TrilinosWrappers::MPI::Vector &b)
+  {
+    Assert(implementation_->is_factorised, ExcNotInitialized());
+    implementation_->factors->substitute(x, b);
+  }
+
+
   SolveAccuracy
   DirectSolver::solve(TrilinosWrappers::MPI::Vector       &x,
                       const TrilinosWrappers::MPI::Vector &b)

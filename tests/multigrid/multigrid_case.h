@@ -4,15 +4,11 @@
 #ifndef nacre_tests_multigrid_case_h
 #define nacre_tests_multigrid_case_h
 
+#include "../tests_common.h"
 #include <nacre/base/expression.h>
-#include <nacre/discretization/discretization.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/kinematics.h>
-#include <nacre/forms/shell_operator.h>
-#include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/multigrid/multigrid_solver.h>
-#include <nacre/problem/boundary_conditions.h>
-#include <nacre/problem/loads.h>
 #include <nacre/problem/midsurface.h>
 
 #include <deal.II/base/mpi.h>
@@ -131,14 +127,15 @@ namespace MultigridTests
     System(const Case              &shell,
            const Discretization    &discretization,
            const KinematicsOptions &options,
-           const TrilinosVector    *u = nullptr)
+           const TrilinosVector    *u   = nullptr,
+           std::optional<double>    eta = {})
       : conditions(discretization, shell.conditions)
       , shell_operator(discretization,
                        shell.section,
                        shell.conditions,
                        shell.loads,
                        options,
-                       {})
+                       eta)
       , b(discretization.locally_owned_dofs(), MPI_COMM_WORLD)
     {
       shell_operator.reinit_matrix(conditions.constraints(), matrix);

@@ -66,6 +66,14 @@ namespace Nacre
                const TrilinosWrappers::MPI::Vector &b) const;
 
     /**
+     * x = K^{-1} b without refinement or any check: a linear and symmetric map,
+     * as preconditioners need it. Collective.
+     */
+    void
+    substitute(TrilinosWrappers::MPI::Vector       &x,
+               const TrilinosWrappers::MPI::Vector &b);
+
+    /**
      * Analyse @p matrix, as factorize() does and will not do again, and
      * estimate the memory (GB) that its factors take on all ranks together.
      */
