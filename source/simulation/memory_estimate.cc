@@ -135,7 +135,8 @@ namespace Nacre
                 Log                  &log)
   {
     const auto estimate = estimate_memory(discretization, storage);
-    if (estimate.total() >= 0.3)
+    // The program's own share grows with the ranks: no news.
+    if (estimate.total() - estimate.program >= 0.12)
       log.progress() << "memory: about " << estimate.text(storage) << std::endl;
     // Part of the estimate is in use already.
     const std::string warning =
