@@ -40,7 +40,7 @@ def extrapolate(folder, dofs, ranks, colours=6):
     messages = ITERATIONS * exchanges * (8 * levels * LATENCY +
                                          2 * 8. * ghosts / BANDWIDTH)
     sums = ITERATIONS * 3 * 2 * math.log2(max(ranks, 2)) * LATENCY
-    waiting = solve * per_rank * border * (colours - 1)
+    waiting = solve * per_rank * border * (min(colours, ranks) - 1)
     total = (set_up + solve) * per_rank + waiting + messages + sums
     return {"dofs": dofs, "ranks": float(ranks), "dofs a rank": per_rank,
             "GB a rank": memory * per_rank / 1e9,
