@@ -50,4 +50,18 @@ namespace Nacre
     coarse->coarsen_global(1);
     return coarse;
   }
+
+
+  std::unique_ptr<Mesh>
+  copy(const Midsurface &midsurface, const Mesh &mesh)
+  {
+    const MPI_Comm communicator = mesh.get_communicator();
+    if (as_forest(mesh) == nullptr)
+      return midsurface.create_triangulation(communicator,
+                                             mesh.get_reference_cells()[0],
+                                             mesh.n_global_levels() - 1);
+    auto result = std::make_unique<ForestMesh>(communicator);
+    result->copy_triangulation(mesh);
+    return result;
+  }
 } // namespace Nacre

@@ -201,6 +201,23 @@ namespace Nacre
                                 }),
                  line.end());
     }
+
+
+    /** The nodes of @p to by those of @p from, on the same cell. */
+    FullMatrix<double>
+    same_cell_matrix(const Discretization &to, const Discretization &from)
+    {
+      const auto        &to_fe   = to.scalar_fe();
+      const auto        &from_fe = from.scalar_fe();
+      FullMatrix<double> matrix(to_fe.n_dofs_per_cell(),
+                                from_fe.n_dofs_per_cell());
+      if (to_fe == from_fe)
+        for (unsigned int a = 0; a < matrix.m(); ++a)
+          matrix(a, a) = 1.;
+      else
+        to_fe.get_interpolation_matrix(from_fe, matrix);
+      return matrix;
+    }
   } // namespace
 
 
@@ -299,22 +316,23 @@ namespace Nacre
           line.emplace_back(k, weight * factor);
     };
 
-    const IndexSet    &owned = fine_.locally_owned_dofs();
-    std::vector<Line>  lines(owned.n_elements());
-    std::vector<bool>  is_done(lines.size(), false);
-    std::vector<Dof>   dofs(fine_.node_dofs().size());
-    const auto        &node_dofs   = fine_.node_dofs();
-    const unsigned int n_nodes     = dofs.size() / spacedim;
-    auto               coarse_cell = coarse_cells_.begin();
+    const IndexSet   &owned = fine_.locally_owned_dofs();
+    std::vector<Line> lines(owned.n_elements());
+    std::vector<bool> is_done(lines.size(), false);
+    std::vector<Dof>  dofs(fine_.node_dofs().size());
+    const auto       &node_dofs        = fine_.node_dofs();
+    const auto       &coarse_node_dofs = coarse_.node_dofs();
+    const auto        same             = same_cell_matrix(fine_, coarse_);
+    auto              coarse_cell      = coarse_cells_.begin();
     for (const auto &cell : fine_.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const bool                is_same = (coarse_cell->child == no_child);
           const FullMatrix<double> &P =
-            fine_.scalar_fe().get_prolongation_matrix(
-              is_same ? 0 : coarse_cell->child);
+            coarse_cell->child == no_child ?
+              same :
+              fine_.scalar_fe().get_prolongation_matrix(coarse_cell->child);
           cell->get_dof_indices(dofs);
-          for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int a = 0; a < P.m(); ++a)
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const Dof i = dofs[node_dofs[spacedim * a + c]];
@@ -324,15 +342,11 @@ namespace Nacre
                 if (is_done[row])
                   continue;
                 is_done[row] = true;
-                for (unsigned int b = 0; b < n_nodes; ++b)
-                  {
-                    const double weight =
-                      is_same ? (a == b ? 1. : 0.) : P(a, b);
-                    if (std::abs(weight) > 1e-13)
-                      add(lines[row],
-                          coarse_cell->dofs[node_dofs[spacedim * b + c]],
-                          weight);
-                  }
+                for (unsigned int b = 0; b < P.n(); ++b)
+                  if (std::abs(P(a, b)) > 1e-13)
+                    add(lines[row],
+                        coarse_cell->dofs[coarse_node_dofs[spacedim * b + c]],
+                        P(a, b));
                 simplify(lines[row]);
               }
           ++coarse_cell;
@@ -403,7 +417,8 @@ namespace Nacre
     const IndexSet               &owned     = coarse_.locally_owned_dofs();
     const auto                    first     = first_dofs(coarse_);
     const auto                   &node_dofs = fine_.node_dofs();
-    const unsigned int            n_nodes   = node_dofs.size() / spacedim;
+    const auto                   &coarse_node_dofs = coarse_.node_dofs();
+    const auto                    same = same_cell_matrix(coarse_, fine_);
     TrilinosWrappers::MPI::Vector own_values(owned, comm);
     std::map<unsigned int, std::vector<std::pair<Dof, double>>> foreign;
 
@@ -416,22 +431,22 @@ namespace Nacre
       if (cell->is_locally_owned())
         {
           const bool  is_same = (coarse_cell->child == no_child);
-          const auto &R       = matrices[is_same ? 0 : coarse_cell->child];
+          const auto &R       = is_same ? same : matrices[coarse_cell->child];
           cell->get_dof_indices(dofs);
-          for (unsigned int b = 0; b < n_nodes; ++b)
+          for (unsigned int b = 0; b < R.m(); ++b)
             {
               double row_sum = 0.;
-              for (unsigned int a = 0; a < n_nodes; ++a)
+              for (unsigned int a = 0; a < R.n(); ++a)
                 row_sum += std::abs(R(b, a));
               if (!is_same && row_sum < 0.5)
                 continue;
               for (unsigned int c = 0; c < spacedim; ++c)
                 {
                   double value = 0.;
-                  for (unsigned int a = 0; a < n_nodes; ++a)
-                    value += (is_same ? (a == b ? 1. : 0.) : R(b, a)) *
-                             fine(dofs[node_dofs[spacedim * a + c]]);
-                  const Dof j = coarse_cell->dofs[node_dofs[spacedim * b + c]];
+                  for (unsigned int a = 0; a < R.n(); ++a)
+                    value += R(b, a) * fine(dofs[node_dofs[spacedim * a + c]]);
+                  const Dof j =
+                    coarse_cell->dofs[coarse_node_dofs[spacedim * b + c]];
                   if (owned.is_element(j))
                     own_values(j) = value;
                   else

@@ -44,6 +44,15 @@ namespace Nacre
     {
       return element.type == ElementType::triangle ? 2 : 1;
     }
+
+    const unsigned int lowest_degree = 2;
+
+    bool
+    has_lower_degree(const Discretization &fine)
+    {
+      return fine.element().type == ElementType::lagrange &&
+             fine.element().degree > lowest_degree;
+    }
   } // namespace
 
 
@@ -97,7 +106,7 @@ namespace Nacre
   bool
   MultigridSolver::has_coarser_mesh(const Discretization &fine)
   {
-    return can_coarsen(fine.triangulation());
+    return can_coarsen(fine.triangulation()) || has_lower_degree(fine);
   }
 
 
@@ -111,18 +120,24 @@ namespace Nacre
   bool
   MultigridSolver::add_coarser_level()
   {
-    const Discretization &fine = *levels_.back()->discretization;
-    if (!can_coarsen(fine.triangulation()))
+    const Discretization &fine             = *levels_.back()->discretization;
+    const bool            has_coarser_mesh = can_coarsen(fine.triangulation());
+    if (!has_coarser_mesh && !has_lower_degree(fine))
       return false;
+    // Without a coarser mesh: the lowest degree on the same one.
+    Element element = fine.element();
+    if (!has_coarser_mesh)
+      element.degree = lowest_degree;
     auto level = std::make_unique<Level>();
     try
       {
         level->own_discretization = std::make_unique<Discretization>(
-          coarsen(shell_.midsurface, fine.triangulation()),
+          has_coarser_mesh ? coarsen(shell_.midsurface, fine.triangulation()) :
+                             copy(shell_.midsurface, fine.triangulation()),
           [this](const auto &cell, const auto &unit) {
             return shell_.midsurface.position(cell, unit);
           },
-          fine.element(),
+          element,
           mapping_degree_);
         level->conditions =
           std::make_unique<DisplacementConditions>(*level->own_discretization,

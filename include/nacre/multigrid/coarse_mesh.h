@@ -26,6 +26,11 @@ namespace Nacre
   std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
   coarsen(const Midsurface                                 &midsurface,
           const parallel::TriangulationBase<dim, spacedim> &mesh);
+
+  /** A copy of @p mesh, refined uniformly if it has triangles. Collective. */
+  std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+  copy(const Midsurface                                 &midsurface,
+       const parallel::TriangulationBase<dim, spacedim> &mesh);
 } // namespace Nacre
 
 #endif

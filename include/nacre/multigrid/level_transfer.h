@@ -34,7 +34,7 @@ namespace Nacre
    *
    * The prolongation P takes unconstrained coarse dofs to unconstrained fine
    * ones: it is the embedding of the space of a coarse cell into that of its
-   * children, with the constrained coarse dofs (hanging nodes, supports)
+   * children, or, on the same mesh, into a space of higher degree, with the constrained coarse dofs (hanging nodes, supports)
    * expressed by unconstrained ones. The restriction is its transpose. The
    * meshes may be distributed differently.
    */
