@@ -193,8 +193,13 @@ namespace Nacre
             ++last;
           }
         gather(patterns_[pattern], x, gathered_.data());
+        // In a sweep from zero half of the entries are still zero: dofs are
+        // numbered nearly in the order of the patches.
+        unsigned int length = patterns_[pattern].length;
+        while (length > 0 && gathered_[length - 1] == 0.)
+          --length;
         DenseKernels::dot_products(last - first,
-                                   patterns_[pattern].length,
+                                   length,
                                    values.data(),
                                    gathered_.data(),
                                    products + first);
