@@ -26,7 +26,7 @@ namespace Nacre
     /** Of the direct solver: bytes / (N log2 N), by degree from 2. */
     constexpr double bytes_of_factors[] = {400., 660., 880., 1150.};
     /** Levels, prolongations, patches: bytes / N by degree from 2. */
-    constexpr double bytes_of_levels[] = {400., 1150., 2100., 4000.};
+    constexpr double bytes_of_levels[] = {1800., 2200., 3500., 6000.};
 
     std::string
     in_gigabytes(const double value)
