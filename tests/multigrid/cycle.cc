@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 // The V-cycle is symmetric, and few iterations solve what the direct solver
-// does: all elements, hanging nodes, thin shells, co-rotational tangents, on
-// any number of ranks. An indefinite matrix is found out.
+// does: all elements, hanging nodes, meshes without a coarser one, thin shells,
+// co-rotational tangents, on any number of ranks. An indefinite matrix is found out.
 
 #include "multigrid_case.h"
 #include <nacre/solvers/direct_solver.h>
@@ -57,6 +57,15 @@ subsection Loads
   set Point forces = (10, 0, 0): 1, 0, 0; (0, 10, 0): 0, -1, 0
 end
 )";
+
+/** A shell's text with other coarse cells. */
+std::string
+subdivided(std::string text, const std::string &subdivisions)
+{
+  const std::string name  = "Subdivisions = ";
+  const auto        begin = text.find(name) + name.size();
+  return text.replace(begin, text.find('\n', begin) - begin, subdivisions);
+}
 
 TrilinosVector
 some_vector(const System &system, const double seed)
@@ -152,10 +161,13 @@ test(const std::string         &name,
 }
 
 void
-test_corotational(const Element &element, const unsigned int max_iterations)
+test_corotational(const Element     &element,
+                  const unsigned int max_iterations,
+                  const std::string &text          = roof,
+                  const unsigned int n_refinements = 3)
 {
-  const Case        shell(roof);
-  const auto        discretization = shell.discretize(element, 3);
+  const Case        shell(text);
+  const auto        discretization = shell.discretize(element, n_refinements);
   KinematicsOptions options(default_membrane_strain(element.type));
   const System      linear(shell, *discretization, options);
   const auto        u = some_displacement(*discretization, linear, 0.5);
@@ -224,5 +236,14 @@ main(int argc, char **argv)
   test_corotational({lagrange, 2}, 12);
   test_corotational({lagrange, 3}, 12);
   test_corotational(Tests::triangle, 15);
+  const std::string fine_roof = subdivided(roof, "12, 12");
+  test("one mesh, roof", fine_roof, {lagrange, 3}, 0, 12);
+  test("one mesh, roof", fine_roof, {lagrange, 4}, 0, 12);
+  test("one mesh, hemisphere",
+       subdivided(hemisphere, "12, 12"),
+       {lagrange, 3},
+       0,
+       14);
+  test_corotational({lagrange, 3}, 12, fine_roof, 0);
   test_indefinite();
 }
