@@ -3,9 +3,9 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/mutation.h>
-#include <nacre/forms/matrix_pattern.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
+#include <nacre/forms/shell_pattern.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
@@ -180,7 +180,7 @@ namespace Nacre
   ShellOperator::reinit_matrix(const AffineConstraints<double> &constraints,
                                Matrix                          &matrix) const
   {
-    make_matrix_pattern(discretization_, constraints, matrix);
+    make_shell_pattern(discretization_, constraints, matrix);
   }
 
   void

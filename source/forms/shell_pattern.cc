@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/forms/matrix_pattern.h>
+#include <nacre/forms/shell_pattern.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -399,7 +399,7 @@ namespace Nacre
   } // namespace
 
   void
-  make_matrix_pattern(const Discretization            &discretization,
+  make_shell_pattern(const Discretization            &discretization,
                       const AffineConstraints<double> &constraints,
                       TrilinosWrappers::SparseMatrix  &matrix)
   {

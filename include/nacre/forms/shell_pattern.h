@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_forms_matrix_pattern_h
-#define nacre_forms_matrix_pattern_h
+#ifndef nacre_forms_shell_pattern_h
+#define nacre_forms_shell_pattern_h
 
 #include <nacre/discretization/discretization.h>
 
@@ -23,9 +23,9 @@ namespace Nacre
    * eliminated dofs depend on are taken as a whole.
    */
   void
-  make_matrix_pattern(const Discretization            &discretization,
-                      const AffineConstraints<double> &constraints,
-                      TrilinosWrappers::SparseMatrix  &matrix);
+  make_shell_pattern(const Discretization            &discretization,
+                     const AffineConstraints<double> &constraints,
+                     TrilinosWrappers::SparseMatrix  &matrix);
 } // namespace Nacre
 
 #endif
