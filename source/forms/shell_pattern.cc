@@ -400,8 +400,8 @@ namespace Nacre
 
   void
   make_shell_pattern(const Discretization            &discretization,
-                      const AffineConstraints<double> &constraints,
-                      TrilinosWrappers::SparseMatrix  &matrix)
+                     const AffineConstraints<double> &constraints,
+                     TrilinosWrappers::SparseMatrix  &matrix)
   {
     using Int = TrilinosWrappers::types::int_type;
 

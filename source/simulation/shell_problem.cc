@@ -369,8 +369,9 @@ namespace Nacre
       MultigridSolver::has_coarser_mesh(*discretization_);
     if (chosen == "multigrid" && !can_coarsen)
       log.warning(
-        "Linear solver/Solver: the mesh is not refined from a coarser "
-        "one, as multigrid needs it; the direct solver is taken.");
+        "Linear solver/Solver: the mesh is not refined from a coarser one, "
+        "nor is there a coarser space than degree 2; the direct solver is "
+        "taken.");
     SolverTask task;
     task.n_dofs             = discretization_->dof_handler().n_dofs();
     task.degree             = discretization_->degree();
