@@ -8,6 +8,8 @@
 
 #include <deal.II/distributed/shared_tria.h>
 
+#include <deal.II/fe/fe_simplex_p.h>
+
 #include <deal.II/grid/cell_id.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -162,6 +164,28 @@ namespace Nacre
 
 
     /**
+     * The embedding of a cell's shape functions into those of its children;
+     * deal.II has that of triangles in the plane only.
+     */
+    std::vector<FullMatrix<double>>
+    prolongation_matrices(const FiniteElement<dim, spacedim> &fe)
+    {
+      std::vector<FullMatrix<double>> matrices;
+      const auto n_children = GeometryInfo<dim>::max_children_per_cell;
+      if (fe.reference_cell() == ReferenceCells::Quadrilateral)
+        for (unsigned int child = 0; child < n_children; ++child)
+          matrices.push_back(fe.get_prolongation_matrix(child));
+      else
+        {
+          const FE_SimplexP<dim> plane_fe(fe.degree);
+          for (unsigned int child = 0; child < n_children; ++child)
+            matrices.push_back(plane_fe.get_prolongation_matrix(child));
+        }
+      return matrices;
+    }
+
+
+    /**
      * Values at the nodes of a cell from those at the nodes of a child of it;
      * rows of nodes outside the child are zero. deal.II's restriction of
      * triangles is a projection: there, each node of the cell is one of a
@@ -173,8 +197,8 @@ namespace Nacre
     {
       if (fe.reference_cell() == ReferenceCells::Quadrilateral)
         return fe.get_restriction_matrix(child);
-      FullMatrix<double>        R(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
-      const FullMatrix<double> &P = fe.get_prolongation_matrix(child);
+      FullMatrix<double>       R(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
+      const FullMatrix<double> P = prolongation_matrices(fe)[child];
       for (unsigned int a = 0; a < R.m(); ++a)
         for (unsigned int b = 0; b < R.n(); ++b)
           R(b, a) = std::abs(P(a, b) - 1.) < 1e-10 ? 1. : 0.;
@@ -323,14 +347,14 @@ namespace Nacre
     const auto       &node_dofs        = fine_.node_dofs();
     const auto       &coarse_node_dofs = coarse_.node_dofs();
     const auto        same             = same_cell_matrix(fine_, coarse_);
-    auto              coarse_cell      = coarse_cells_.begin();
+    const auto        children    = prolongation_matrices(fine_.scalar_fe());
+    auto              coarse_cell = coarse_cells_.begin();
     for (const auto &cell : fine_.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const FullMatrix<double> &P =
-            coarse_cell->child == no_child ?
-              same :
-              fine_.scalar_fe().get_prolongation_matrix(coarse_cell->child);
+          const FullMatrix<double> &P = coarse_cell->child == no_child ?
+                                          same :
+                                          children[coarse_cell->child];
           cell->get_dof_indices(dofs);
           for (unsigned int a = 0; a < P.m(); ++a)
             for (unsigned int c = 0; c < spacedim; ++c)

@@ -120,9 +120,10 @@ compare(const std::string &name, const Energies &found, const Energies &exact)
   check_below(name + ": bending energy",
               std::abs(found.bending / exact.bending - 1.),
               1e-12);
+  // The penalty's eigenvalue is that of a matrix nearly singular.
   check_below(name + ": edge energy",
               std::abs(found.edge / exact.edge - 1.),
-              1e-10);
+              1e-9);
 }
 
 void
