@@ -10,6 +10,7 @@
 #include <Epetra_Map.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -396,6 +397,89 @@ namespace Nacre
       };
       const SortedGraph sorted(graph);
     }
+
+    /** This rank's columns come first, those of other ranks follow. */
+    class LocalColumns
+    {
+    public:
+      LocalColumns(const IndexSet &owned, Dofs &&ghosts)
+        : owned_(owned)
+        , first_(owned.n_elements() > 0 ? owned.nth_index_in_set(0) : Dof(0))
+        , end_(first_ + owned.n_elements())
+        , ghosts_(std::move(ghosts))
+      {
+        std::sort(ghosts_.begin(), ghosts_.end());
+        ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()),
+                      ghosts_.end());
+      }
+
+      int
+      operator()(const Dof dof) const
+      {
+        return dof >= first_ && dof < end_ ?
+                 dof - first_ :
+                 end_ - first_ +
+                   (std::lower_bound(ghosts_.begin(), ghosts_.end(), dof) -
+                    ghosts_.begin());
+      }
+
+      bool
+      has_ghosts() const
+      {
+        return !ghosts_.empty();
+      }
+
+      Epetra_Map
+      make_map(const Epetra_Comm &communicator) const
+      {
+        using Int = TrilinosWrappers::types::int_type;
+        std::vector<Int> dofs(owned_.begin(), owned_.end());
+        dofs.insert(dofs.end(), ghosts_.begin(), ghosts_.end());
+        return Epetra_Map(static_cast<Int>(-1),
+                          static_cast<int>(dofs.size()),
+                          dofs.data(),
+                          0,
+                          communicator);
+      }
+
+    private:
+      const IndexSet &owned_;
+      const Dof       first_;
+      const Dof       end_;
+      Dofs            ghosts_;
+    };
+
+    /** Write the columns of all rows; @p starts of the rows in @p indices. */
+    void
+    write_columns(BlockRows                       &rows,
+                  const AffineConstraints<double> &constraints,
+                  const LocalColumns              &local_column,
+                  const int *const                 starts,
+                  int *const                       indices)
+    {
+      rows.for_each([&](const Block &block, const Dofs &columns) {
+        const int *done = nullptr;
+        for (unsigned int k = 0; k < block.length; ++k)
+          {
+            const int row   = local_column(block.start + k);
+            int      *begin = indices + starts[row];
+            if (constraints.is_constrained(block.start + k))
+              *begin = row;
+            else if (done != nullptr)
+              std::copy(done, done + columns.size(), begin);
+            else
+              {
+                std::transform(columns.begin(),
+                               columns.end(),
+                               begin,
+                               std::cref(local_column));
+                if (local_column.has_ghosts())
+                  std::sort(begin, begin + columns.size());
+                done = begin;
+              }
+          }
+      });
+    }
   } // namespace
 
   void
@@ -403,78 +487,41 @@ namespace Nacre
                      const AffineConstraints<double> &constraints,
                      TrilinosWrappers::SparseMatrix  &matrix)
   {
-    using Int = TrilinosWrappers::types::int_type;
-
     const IndexSet  &owned = discretization.locally_owned_dofs();
     const Epetra_Map row_map =
       owned.make_trilinos_map(discretization.communicator(), false);
-    const Dof first =
-      owned.n_elements() > 0 ? owned.nth_index_in_set(0) : Dof(0);
     BlockRows rows(discretization, constraints);
 
-    // Lengths of the rows, and columns of other ranks.
-    std::vector<int> lengths(owned.n_elements());
+    // Starts of the rows, and columns of other ranks.
+    std::vector<int> starts(owned.n_elements() + 1);
     Dofs             ghosts;
     rows.for_each([&](const Block &block, const Dofs &columns) {
       for (unsigned int k = 0; k < block.length; ++k)
-        lengths[block.start + k - first] =
+        starts[owned.index_within_set(block.start + k) + 1] =
           constraints.is_constrained(block.start + k) ? 1 : columns.size();
       for (const Dof column : columns)
         if (!owned.is_element(column))
           ghosts.push_back(column);
     });
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-
-    // This rank's columns come first, those of other ranks follow.
-    std::vector<Int> column_dofs(owned.begin(), owned.end());
-    column_dofs.insert(column_dofs.end(), ghosts.begin(), ghosts.end());
-    const Epetra_Map column_map(static_cast<Int>(-1),
-                                static_cast<int>(column_dofs.size()),
-                                column_dofs.data(),
-                                0,
-                                row_map.Comm());
-    const Dof        end          = first + owned.n_elements();
-    const auto       local_column = [&](const Dof dof) -> int {
-      return dof >= first && dof < end ?
-                     dof - first :
-                     end - first +
-                 (std::lower_bound(ghosts.begin(), ghosts.end(), dof) -
-                  ghosts.begin());
-    };
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    const LocalColumns local_column(owned, std::move(ghosts));
 
     // Trilinos' own insertion would copy and sort every row once more. The
     // values are never touched.
+    const Epetra_Map column_map = local_column.make_map(row_map.Comm());
     Epetra_CrsMatrix rows_only(Copy, row_map, column_map, 0, true);
-    auto            &starts  = rows_only.ExpertExtractIndexOffset();
     auto            &indices = rows_only.ExpertExtractIndices();
-    starts.Resize(lengths.size() + 1);
-    starts[0] = 0;
-    std::partial_sum(lengths.begin(), lengths.end(), starts.Values() + 1);
-    indices.Resize(starts[lengths.size()]);
-    rows_only.ExpertExtractValues() = new double[starts[lengths.size()]];
-    rows.for_each([&](const Block &block, const Dofs &columns) {
-      const int *done = nullptr;
-      for (unsigned int k = 0; k < block.length; ++k)
-        {
-          const int row   = block.start + k - first;
-          int      *begin = indices.Values() + starts[row];
-          if (constraints.is_constrained(block.start + k))
-            *begin = row;
-          else if (done != nullptr)
-            std::copy(done, done + columns.size(), begin);
-          else
-            {
-              std::transform(columns.begin(),
-                             columns.end(),
-                             begin,
-                             local_column);
-              if (!ghosts.empty())
-                std::sort(begin, begin + columns.size());
-              done = begin;
-            }
-        }
-    });
+    indices.Resize(starts.back());
+    write_columns(rows,
+                  constraints,
+                  local_column,
+                  starts.data(),
+                  indices.Values());
+    rows_only.ExpertExtractIndexOffset().Resize(starts.size());
+    std::copy(starts.begin(),
+              starts.end(),
+              rows_only.ExpertExtractIndexOffset().Values());
+    rows_only.ExpertExtractValues() = new double[starts.back()];
     const int error = rows_only.ExpertStaticFillComplete(row_map, row_map);
     AssertThrow(error == 0, ExcTrilinosError(error));
     mark_sorted(rows_only.Graph());
