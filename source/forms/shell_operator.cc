@@ -9,10 +9,6 @@
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/meshworker/mesh_loop.h>
 
 #include <sstream>
@@ -184,28 +180,7 @@ namespace Nacre
   ShellOperator::reinit_matrix(const AffineConstraints<double> &constraints,
                                Matrix                          &matrix) const
   {
-    const MPI_Comm communicator = discretization_.communicator();
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-      {
-        make_shell_pattern(discretization_, constraints, matrix);
-        return;
-      }
-    // On three ranks around a vertex the pattern of blocks lacks entries.
-    const auto            &relevant = discretization_.locally_relevant_dofs();
-    DynamicSparsityPattern pattern(relevant);
-    DoFTools::make_flux_sparsity_pattern(discretization_.dof_handler(),
-                                         pattern,
-                                         constraints,
-                                         false);
-    SparsityTools::distribute_sparsity_pattern(
-      pattern,
-      discretization_.locally_owned_dofs(),
-      communicator,
-      relevant);
-    matrix.reinit(discretization_.locally_owned_dofs(),
-                  discretization_.locally_owned_dofs(),
-                  pattern,
-                  communicator);
+    make_shell_pattern(discretization_, constraints, matrix);
   }
 
   void

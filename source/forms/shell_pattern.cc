@@ -5,6 +5,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
 #include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
@@ -482,11 +487,45 @@ namespace Nacre
     }
   } // namespace
 
+  /**
+   * The same from a pattern of dofs, for several ranks: on three around a
+   * vertex that of blocks lacks entries.
+   */
+  static void
+  make_pattern_of_dofs(const Discretization            &discretization,
+                       const AffineConstraints<double> &constraints,
+                       TrilinosWrappers::SparseMatrix  &matrix)
+  {
+    const MPI_Comm         communicator = discretization.communicator();
+    const auto            &relevant = discretization.locally_relevant_dofs();
+    DynamicSparsityPattern pattern(relevant);
+    DoFTools::make_flux_sparsity_pattern(discretization.dof_handler(),
+                                         pattern,
+                                         constraints,
+                                         false);
+    SparsityTools::distribute_sparsity_pattern(
+      pattern,
+      discretization.locally_owned_dofs(),
+      communicator,
+      relevant);
+    matrix.reinit(discretization.locally_owned_dofs(),
+                  discretization.locally_owned_dofs(),
+                  pattern,
+                  communicator);
+  }
+
   void
   make_shell_pattern(const Discretization            &discretization,
                      const AffineConstraints<double> &constraints,
                      TrilinosWrappers::SparseMatrix  &matrix)
   {
+    const MPI_Comm communicator = discretization.communicator();
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      {
+        make_pattern_of_dofs(discretization, constraints, matrix);
+        return;
+      }
+
     const IndexSet  &owned = discretization.locally_owned_dofs();
     const Epetra_Map row_map =
       owned.make_trilinos_map(discretization.communicator(), false);
