@@ -52,6 +52,14 @@ class Failure(Exception):
     """What a test found, in one sentence."""
 
 
+def start_alone(folder):
+    """Settings of Open MPI for one rank: no daemon, which saves a fifth of a
+    second, and a session directory of its own: programs without a daemon
+    share one by default, which one that ends removes while another starts."""
+    return {"OMPI_MCA_ess_singleton_isolated": "1",
+            "OMPI_MCA_orte_tmpdir_base": os.path.abspath(folder)}
+
+
 def run_nacre(arguments, ranks, folder):
     """Run nacre in `folder` and return the rows of its .csv."""
     command = [os.path.abspath(arguments.nacre), os.path.abspath(arguments.prm)]
@@ -63,6 +71,8 @@ def run_nacre(arguments, ranks, folder):
     environment = dict(os.environ, OMP_NUM_THREADS="1",
                        OMPI_ALLOW_RUN_AS_ROOT="1",
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    if ranks == 1:
+        environment.update(start_alone(folder))
     process = subprocess.Popen(command, cwd=folder, env=environment,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                text=True, errors="replace",

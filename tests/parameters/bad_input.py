@@ -20,6 +20,10 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import run_study  # noqa: E402  (found by the line above)
+
 TIMEOUT = 60 if "NACRE_SLOW" in os.environ else 20
 RESULTS = {".csv", ".txt", ".tex", ".vtu", ".pvtu", ".pvd",
            ".h5", ".xdmf"}
@@ -59,6 +63,8 @@ class Nacre:
         environment = dict(os.environ, OMP_NUM_THREADS="1",
                            OMPI_ALLOW_RUN_AS_ROOT="1",
                            OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        if self.n_ranks == 1:
+            environment.update(run_study.start_alone(folder))
         with subprocess.Popen(command, cwd=folder, env=environment, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               stdin=subprocess.DEVNULL, errors="replace",
