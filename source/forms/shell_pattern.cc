@@ -5,11 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
-
 #include <Epetra_CrsGraph.h>
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
@@ -77,7 +72,7 @@ namespace Nacre
         collect_blocks();
         collect_cells();
         invert_cells();
-        marks_.assign(blocks_.size(), numbers::invalid_unsigned_int);
+        marks_.assign(blocks_.size(), 0);
         for (const auto &block : blocks_)
           {
             bool is_free = true;
@@ -93,6 +88,15 @@ namespace Nacre
         return blocks_;
       }
 
+      /** Number of the block that holds the @p dof. */
+      unsigned int
+      block_of(const Dof dof) const
+      {
+        const unsigned int block = last_block_up_to(dof);
+        Assert(is_in(dof, block), ExcInternalError());
+        return block;
+      }
+
       /**
        * The blocks, ascending, to which this rank's cells and their edges
        * couple the @p block.
@@ -102,11 +106,12 @@ namespace Nacre
                      std::vector<unsigned int> &result)
       {
         result.clear();
+        ++n_calls_; // marks this call's result: a block may come twice
         const auto add_blocks = [&](const unsigned int cell) {
           for (const unsigned int b : cell_blocks_[cell])
-            if (marks_[b] != block)
+            if (marks_[b] != n_calls_)
               {
-                marks_[b] = block;
+                marks_[b] = n_calls_;
                 result.push_back(b);
               }
         };
@@ -149,6 +154,17 @@ namespace Nacre
           function(cell);
       }
 
+      /** Call @p use with each dof on which eliminated ones of these depend. */
+      template <typename Function>
+      void
+      for_each_master(const Dofs &dofs, const Function &use) const
+      {
+        for (const Dof dof : dofs)
+          if (constraints_.is_constrained(dof))
+            for (const auto &entry : *constraints_.get_constraint_entries(dof))
+              use(entry.first);
+      }
+
       /** Append the blocks of the cell's dofs: consecutive numbers. */
       static void
       append_blocks(const FiniteElement<dim, spacedim> &fe,
@@ -178,27 +194,48 @@ namespace Nacre
       collect_blocks()
       {
         const auto &fe = discretization_.dof_handler().get_fe();
-        Dofs        dofs(fe.n_dofs_per_cell());
+        Dofs        dofs(fe.n_dofs_per_cell()), masters;
         for_each_cell([&](const auto &cell) {
           if (cell->is_artificial())
             return;
           cell->get_dof_indices(dofs);
+          for_each_master(dofs, [&](const Dof dof) { masters.push_back(dof); });
           append_blocks(fe, cell->n_lines(), dofs, blocks_);
         });
+        sort_blocks();
+
+        // Eliminated dofs of ghosts may depend on dofs beyond the ghosts.
+        std::vector<Block> others;
+        for (const Dof dof : masters)
+          if (!is_in(dof, last_block_up_to(dof)))
+            others.push_back({dof, 1});
+        blocks_.insert(blocks_.end(), others.begin(), others.end());
+        sort_blocks();
+      }
+
+      void
+      sort_blocks()
+      {
         std::sort(blocks_.begin(), blocks_.end());
         blocks_.erase(std::unique(blocks_.begin(), blocks_.end()),
                       blocks_.end());
       }
 
+      /** The last block that starts at the dof or before; invalid if none. */
       unsigned int
-      block_of(const Dof dof) const
+      last_block_up_to(const Dof dof) const
       {
         const auto next =
           std::upper_bound(blocks_.begin(), blocks_.end(), Block{dof, 0});
-        Assert(next != blocks_.begin(), ExcInternalError());
-        Assert(dof < (next - 1)->start + (next - 1)->length,
-               ExcInternalError());
-        return next - blocks_.begin() - 1;
+        return next == blocks_.begin() ? numbers::invalid_unsigned_int :
+                                         next - blocks_.begin() - 1;
+      }
+
+      bool
+      is_in(const Dof dof, const unsigned int block) const
+      {
+        return block != numbers::invalid_unsigned_int &&
+               dof < blocks_[block].start + blocks_[block].length;
       }
 
       /** Blocks and neighbours of each cell. */
@@ -217,22 +254,14 @@ namespace Nacre
               append_blocks(fe, cell->n_lines(), dofs, blocks);
               for (const auto &block : blocks)
                 cell_blocks_.entries.push_back(block_of(block.start));
-              append_masters(dofs);
+              for_each_master(dofs, [&](const Dof dof) {
+                cell_blocks_.entries.push_back(block_of(dof));
+              });
               append_neighbors(cell);
             }
           cell_blocks_.close();
           neighbors_.close();
         });
-      }
-
-      /** Blocks on which eliminated dofs of the cell depend. */
-      void
-      append_masters(const Dofs &dofs)
-      {
-        for (const Dof dof : dofs)
-          if (constraints_.is_constrained(dof))
-            for (const auto &entry : *constraints_.get_constraint_entries(dof))
-              cell_blocks_.entries.push_back(block_of(entry.first));
       }
 
       template <typename Cell>
@@ -281,6 +310,7 @@ namespace Nacre
       Lists                            neighbors_;
       Lists                            block_cells_;
       std::vector<unsigned int>        marks_;
+      unsigned int                     n_calls_ = 0;
     };
 
     /** Columns that other ranks know, by the first dof of this rank's block. */
@@ -324,8 +354,10 @@ namespace Nacre
            Utilities::MPI::some_to_some(communicator, messages))
         for (auto entry = message.begin(); entry != message.end();)
           {
-            Dofs      &list   = result[entry[0]];
-            const auto length = entry[1];
+            // A master beyond the ghosts comes alone, not as its whole block.
+            const auto &block  = pattern.blocks()[pattern.block_of(entry[0])];
+            const auto  length = entry[1];
+            Dofs       &list   = result[block.start];
             list.insert(list.end(), entry + 2, entry + 2 + length);
             entry += 2 + length;
           }
@@ -487,45 +519,11 @@ namespace Nacre
     }
   } // namespace
 
-  /**
-   * The same from a pattern of dofs, for several ranks: on three around a
-   * vertex that of blocks lacks entries.
-   */
-  static void
-  make_pattern_of_dofs(const Discretization            &discretization,
-                       const AffineConstraints<double> &constraints,
-                       TrilinosWrappers::SparseMatrix  &matrix)
-  {
-    const MPI_Comm         communicator = discretization.communicator();
-    const auto            &relevant = discretization.locally_relevant_dofs();
-    DynamicSparsityPattern pattern(relevant);
-    DoFTools::make_flux_sparsity_pattern(discretization.dof_handler(),
-                                         pattern,
-                                         constraints,
-                                         false);
-    SparsityTools::distribute_sparsity_pattern(
-      pattern,
-      discretization.locally_owned_dofs(),
-      communicator,
-      relevant);
-    matrix.reinit(discretization.locally_owned_dofs(),
-                  discretization.locally_owned_dofs(),
-                  pattern,
-                  communicator);
-  }
-
   void
   make_shell_pattern(const Discretization            &discretization,
                      const AffineConstraints<double> &constraints,
                      TrilinosWrappers::SparseMatrix  &matrix)
   {
-    const MPI_Comm communicator = discretization.communicator();
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-      {
-        make_pattern_of_dofs(discretization, constraints, matrix);
-        return;
-      }
-
     const IndexSet  &owned = discretization.locally_owned_dofs();
     const Epetra_Map row_map =
       owned.make_trilinos_map(discretization.communicator(), false);
