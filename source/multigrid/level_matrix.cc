@@ -91,6 +91,7 @@ namespace Nacre
     // The first pattern is that of rows that are not kept.
     patterns_.assign(1, Pattern());
     runs_.clear();
+    values_ = {};
     add_rows(own_matrix);
     if (is_parallel)
       add_rows(*further_rows_);
@@ -98,6 +99,24 @@ namespace Nacre
     for (const auto &pattern : patterns_)
       longest = std::max(longest, pattern.length);
     gathered_.resize(longest);
+  }
+
+
+  void
+  LevelMatrix::copy_values()
+  {
+    std::size_t n_values = 0;
+    for (unsigned int i = 0; i < n_local(); ++i)
+      n_values += row_length(i);
+    values_.resize(n_values);
+    double *values = values_.data();
+    for (unsigned int i = 0; i < n_local(); ++i)
+      {
+        std::copy_n(rows_[i].values, row_length(i), values);
+        rows_[i].values = values;
+        values += row_length(i);
+      }
+    further_rows_.reset();
   }
 
 

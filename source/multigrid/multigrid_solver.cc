@@ -185,8 +185,6 @@ namespace Nacre
                                           *constraints,
                                           patch_extent(
                                             level.discretization->element()));
-        coarser.shell_operator->reinit_matrix(coarse_constraints,
-                                              coarser.own_matrix);
         constraints = &coarse_constraints;
       }
     levels_.back()->direct = std::make_unique<DirectSolver>(
@@ -204,6 +202,8 @@ namespace Nacre
         const auto    &constraints = level.conditions->constraints();
         TrilinosVector unused(level.discretization->locally_owned_dofs(),
                               level.discretization->communicator());
+        if (level.own_matrix.m() == 0)
+          level.shell_operator->reinit_matrix(constraints, level.own_matrix);
         if (finest_u == nullptr)
           {
             level.shell_operator->assemble_system(constraints,
@@ -231,7 +231,8 @@ namespace Nacre
       connect_levels(system.constraints);
     assemble_coarse_levels(system.u);
     bool is_definite = true;
-    for (unsigned int l = 0; l < n_levels(); ++l)
+    // Coarse matrices give memory back before the finest level takes it.
+    for (unsigned int l = n_levels(); l-- > 0;)
       {
         Level      &level  = *levels_[l];
         const auto &matrix = l == 0 ? system.matrix : level.own_matrix;
@@ -244,6 +245,11 @@ namespace Nacre
         else
           {
             level.matrix.reinit(matrix, level.patches->foreign_dofs);
+            if (l > 0)
+              {
+                level.matrix.copy_values();
+                level.own_matrix.clear();
+              }
             is_definite &=
               level.smoother.reinit(level.matrix,
                                     *level.patches,
@@ -292,25 +298,76 @@ namespace Nacre
   }
 
 
-  unsigned int
-  MultigridSolver::iterate(Vector &x, Vector &r)
+  void
+  MultigridSolver::solve_coarser_levels(const Vector &b)
   {
-    Level       &level   = *levels_[0];
-    const double r_start = r.l2_norm();
-    AssertThrow(std::isfinite(r_start),
+    std::vector<Vector> rhs(n_levels());
+    for (unsigned int l = 1; l < n_levels(); ++l)
+      {
+        rhs[l].reinit(levels_[l]->matrix.partitioner());
+        levels_[l - 1]->to_coarser->restrict_to(rhs[l],
+                                                l == 1 ? b : rhs[l - 1]);
+      }
+    levels_.back()->b = rhs.back();
+    solve_coarsest();
+    for (unsigned int l = n_levels() - 2; l > 0; --l)
+      {
+        Level &level = *levels_[l];
+        Vector x(level.matrix.partitioner());
+        level.to_coarser->prolongate_and_add(x, levels_[l + 1]->x);
+        x.update_ghost_values();
+        level.matrix.residual(level.b, x, rhs[l]);
+        cycle(l);
+        level.x += x;
+      }
+  }
+
+
+  void
+  MultigridSolver::start(Vector &x, Vector &r)
+  {
+    Level       &level  = *levels_[0];
+    const double r_norm = r.l2_norm();
+    AssertThrow(std::isfinite(r_norm),
                 ExcIterationFailed("the residual is not a finite number"));
+    if (r_norm == 0.)
+      return;
+    // The patches' single precision has a range of its own.
+    level.b.equ(1. / r_norm, r);
+    solve_coarser_levels(level.b);
+    Vector u(level.matrix.partitioner()), Au(u), zero(u);
+    level.to_coarser->prolongate_and_add(u, levels_[1]->x);
+    u.update_ghost_values();
+    level.matrix.residual(Au, u, zero);
+    // What is too stiff, or too soft, on a coarser level: the multiple with the
+    // least error in the energy norm.
+    const double uAu = -(u * Au), ur = u * r;
+    if (std::isfinite(ur) && std::isfinite(uAu) && uAu > 0.)
+      {
+        x.equ(ur / uAu, u);
+        r.add(ur / uAu, Au);
+      }
+  }
+
+
+  unsigned int
+  MultigridSolver::iterate(Vector &x, const Vector &b)
+  {
+    Level &level = *levels_[0];
+    Vector r(b);
+    x = 0.;
+    start(x, r);
     Vector p(level.matrix.partitioner()), Ap(p), zero(p);
     double rz_old = 1.;
     for (unsigned int k = 0;; ++k)
       {
         const double r_norm = r.l2_norm();
-        if (r_norm <= parameters_.tolerance * r_start)
+        if (r_norm == 0.)
           return k;
         AssertThrow(k < parameters_.max_iterations,
                     ExcIterationFailed("no convergence within " +
                                        std::to_string(k) + " iterations"));
-        // The patches' single precision has a range of its own.
-        level.b.equ(1. / r_norm, r);
+        level.b.equ(1. / r_norm, r); // as in start()
         cycle(0);
         const double rz = (r * level.x) * r_norm;
         AssertThrow(std::isfinite(rz) && rz > 0.,
@@ -325,6 +382,11 @@ namespace Nacre
                     ExcIterationFailed("the matrix is not positive definite"));
         x.add(rz / pAp, p);
         r.add(rz / pAp, Ap);
+        // The squares of the energy norms of the error before this step, but
+        // for the preconditioner, and of the solution.
+        const double energy = x * b - x * r;
+        if (rz <= Utilities::fixed_power<2>(parameters_.tolerance) * energy)
+          return k + 1;
       }
   }
 
@@ -343,7 +405,7 @@ namespace Nacre
     else
       {
         Vector solution(level.matrix.partitioner());
-        Vector right_hand_side(solution), r(solution);
+        Vector right_hand_side(solution), r(solution), correction(solution);
         copy_entries(right_hand_side, b);
         // Rows of constrained dofs are diagonal.
         for (unsigned int i = 0; i < level.matrix.n_owned(); ++i)
@@ -352,7 +414,9 @@ namespace Nacre
               right_hand_side.begin()[i] / level.matrix.diagonal(i);
         solution.update_ghost_values();
         level.matrix.residual(r, solution, right_hand_side);
-        accuracy.n_iterations = iterate(solution, r);
+        solution.zero_out_ghost_values();
+        accuracy.n_iterations = iterate(correction, r);
+        solution += correction;
         solution.update_ghost_values();
         accuracy.backward_error =
           level.matrix.residual_and_error(r, solution, right_hand_side);

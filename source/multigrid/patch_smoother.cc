@@ -130,15 +130,20 @@ namespace Nacre
     std::fill(dense_.begin(), dense_.begin() + std::size_t(n) * n, 0.);
     for (unsigned int i = 0; i < n; ++i)
       {
-        matrix_->get_columns(dofs[i], columns_);
+        // Dofs of a node share their columns.
+        if (i == 0 ||
+            matrix_->pattern(dofs[i]) != matrix_->pattern(dofs[i - 1]))
+          {
+            matrix_->get_columns(dofs[i], columns_);
+            entries_.clear();
+            for (unsigned int k = 0; k < columns_.size(); ++k)
+              if (position_[columns_[k]] >= 0)
+                entries_.push_back({k, position_[columns_[k]]});
+          }
         const double *values  = matrix_->row_values(dofs[i]);
         const double  scale_i = scaling_[dofs[i]];
-        for (unsigned int k = 0; k < columns_.size(); ++k)
-          {
-            const int j = position_[columns_[k]];
-            if (j >= 0)
-              dense_[i * n + j] = scale_i * values[k] * scaling_[dofs[j]];
-          }
+        for (const auto &[k, j] : entries_)
+          dense_[i * n + j] = scale_i * values[k] * scaling_[dofs[j]];
       }
     for (unsigned int i = 0; i < n; ++i)
       position_[dofs[i]] = -1;

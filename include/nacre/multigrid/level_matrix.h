@@ -48,12 +48,20 @@ namespace Nacre
     ~LevelMatrix();
 
     /**
-     * Read @p matrix, which must stay alive and unchanged. Collective.
+     * Read @p matrix, which must stay alive and unchanged unless copy_values()
+     * follows. Collective.
      * @param further_rows rows of other ranks to copy
      */
     void
     reinit(const TrilinosWrappers::SparseMatrix &matrix,
            const IndexSet                       &further_rows);
+
+    /**
+     * Copy the values: a third of the matrix, its column numbers, is needed no
+     * longer.
+     */
+    void
+    copy_values();
 
     const std::shared_ptr<const Utilities::MPI::Partitioner> &
     partitioner() const
@@ -72,6 +80,13 @@ namespace Nacre
     n_local() const
     {
       return rows_.size();
+    }
+
+    /** Rows of the same pattern have the same columns. */
+    unsigned int
+    pattern(const unsigned int i) const
+    {
+      return rows_[i].pattern;
     }
 
     /** Number of entries of the row with local index @p i, 0 if not kept. */
@@ -163,6 +178,7 @@ namespace Nacre
     std::vector<Row>     rows_;
     std::vector<Pattern> patterns_;
     std::vector<Run>     runs_;
+    std::vector<double>  values_; // if copied
     std::vector<double>  diagonal_;
     /** Room for the entries of the longest row. */
     mutable AlignedVector<double> gathered_;

@@ -53,8 +53,12 @@ namespace Nacre
   public:
     struct Parameters
     {
-      /** The recursive residual, relative to the right-hand side. */
-      double tolerance = 1e-8;
+      /**
+       * Energy norm of the error before the last iteration, as the
+       * preconditioner sees it, relative to that of the solution:
+       * r . B r <= tolerance^2 u . K u.
+       */
+      double tolerance = 1e-9;
       /** Without convergence after as many iterations prepare for failure. */
       unsigned int max_iterations = 60;
       /** Coarsen until the number of dofs is at most this. */
@@ -132,11 +136,25 @@ namespace Nacre
     solve_coarsest();
 
     /**
-     * Conjugate gradients for the residual r of x on the finest level; returns
-     * the number of iterations.
+     * Solve for the right-hand side @p b of the finest level on the coarser
+     * ones, from the coarsest up, with one V-cycle on each: levels_[1]->x.
+     */
+    void
+    solve_coarser_levels(const Vector &b);
+
+    /**
+     * A first solution @p x, from zero, and its residual @p r, which is the
+     * right-hand side before.
+     */
+    void
+    start(Vector &x, Vector &r);
+
+    /**
+     * Conjugate gradients for K x = b on the finest level; returns the number
+     * of iterations.
      */
     unsigned int
-    iterate(Vector &x, Vector &r);
+    iterate(Vector &x, const Vector &b);
 
     const ShellDescription              shell_;
     const Parameters                    parameters_;

@@ -102,11 +102,13 @@ namespace Nacre
     std::vector<double> scaling_;
 
     /** Room for one patch. */
-    std::vector<double>         dense_;
-    std::vector<unsigned int>   columns_;
-    std::vector<int>            position_;
-    mutable std::vector<double> products_;
-    mutable std::vector<float>  residual_, correction_;
+    std::vector<double>       dense_;
+    std::vector<unsigned int> columns_;
+    /** Place in the row, and in the patch, of a row's entries. */
+    std::vector<std::pair<unsigned int, unsigned int>> entries_;
+    std::vector<int>                                   position_;
+    mutable std::vector<double>                        products_;
+    mutable std::vector<float>                         residual_, correction_;
     /** What this rank has added to dofs of other ranks. */
     mutable Vector additions_;
   };
