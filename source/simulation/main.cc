@@ -13,6 +13,10 @@
 
 #include <boost/program_options.hpp>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
 #include <iostream>
 #include <optional>
 
@@ -159,6 +163,21 @@ namespace
     return success;
   }
 
+  /**
+   * SuperLU_DIST, which comes with Trilinos, tells the C library at its start
+   * never to give freed memory back to the system: its defaults again, but for
+   * arrays below 4 MB, whose pages are worth keeping.
+   */
+  void
+  give_freed_memory_back()
+  {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);
+#endif
+  }
+
   int
   run(const int argc, char **argv)
   {
@@ -204,6 +223,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  give_freed_memory_back();
   // One thread for each rank.
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // The library of threads reads the process' memory map at its first task:

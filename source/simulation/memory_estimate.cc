@@ -8,6 +8,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -95,13 +97,45 @@ namespace Nacre
            in_gigabytes(solver) + ")";
   }
 
+  namespace
+  {
+    /** Bytes of this process' pages that are parts of files: the program. */
+    double
+    bytes_of_files()
+    {
+      std::ifstream status("/proc/self/status");
+      for (std::string line; std::getline(status, line);)
+        if (line.rfind("RssFile:", 0) == 0)
+          return 1024. * std::strtod(line.c_str() + 8, nullptr);
+      return 0.;
+    }
+
+    /** Sum over the ranks, which share the files on each machine; in GB. */
+    double
+    sum_memory(const double bytes, const MPI_Comm communicator)
+    {
+      MPI_Comm machine;
+      int      ierr = MPI_Comm_split_type(communicator,
+                                     MPI_COMM_TYPE_SHARED,
+                                     0,
+                                     MPI_INFO_NULL,
+                                     &machine);
+      AssertThrowMPI(ierr);
+      const double n_ranks = Utilities::MPI::n_mpi_processes(machine);
+      ierr                 = MPI_Comm_free(&machine);
+      AssertThrowMPI(ierr);
+      return Utilities::MPI::sum(bytes - (1. - 1. / n_ranks) * bytes_of_files(),
+                                 communicator) /
+             giga;
+    }
+  } // namespace
+
   double
   peak_memory(const MPI_Comm communicator)
   {
     Utilities::System::MemoryStats stats;
     Utilities::System::get_memory_stats(stats);
-    // VmHWM in kB of 1024 bytes
-    return Utilities::MPI::sum(1024. * stats.VmHWM, communicator) / giga;
+    return sum_memory(1024. * stats.VmHWM, communicator); // kB of 1024 bytes
   }
 
   double
@@ -109,7 +143,7 @@ namespace Nacre
   {
     Utilities::System::MemoryStats stats;
     Utilities::System::get_memory_stats(stats);
-    return Utilities::MPI::sum(1024. * stats.VmRSS, communicator) / giga;
+    return sum_memory(1024. * stats.VmRSS, communicator);
   }
 
   std::string

@@ -71,7 +71,8 @@ namespace Nacre
 
   /**
    * The largest memory (GB) that the program has had so far, summed over the
-   * ranks; collective.
+   * ranks; what the ranks of a machine share of the program's files counts
+   * once. Collective.
    */
   double
   peak_memory(const MPI_Comm communicator);
