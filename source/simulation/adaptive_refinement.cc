@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/cpu_timer.h>
 #include <nacre/base/text.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/refinement_marking.h>
 #include <nacre/simulation/adaptive_refinement.h>
-
-#include <deal.II/base/timer.h>
 
 #include <cmath>
 #include <limits>
@@ -116,7 +115,7 @@ namespace Nacre
   AdaptiveRefinement::estimate(const ShellProblem &problem) const
   {
     const MPI_Comm communicator = problem.discretization().communicator();
-    Timer          timer(communicator, true);
+    CpuTimer       timer(communicator);
     const auto     estimator = problem.make_error_estimator();
     ErrorEstimate  result;
     const ErrorEstimator::Field u{&problem.solution().displacement, true};
@@ -148,8 +147,7 @@ namespace Nacre
         result.value = uz.total(communicator);
         result.bound = Utilities::MPI::sum(result.bound, communicator);
       }
-    timer.stop();
-    result.seconds = timer.cpu_time();
+    result.seconds = timer.lap();
     return result;
   }
 

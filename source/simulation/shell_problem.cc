@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/cpu_timer.h>
 #include <nacre/base/log.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
@@ -10,8 +11,6 @@
 #include <nacre/simulation/chosen_solver.h>
 #include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/shell_problem.h>
-
-#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -225,7 +224,7 @@ namespace Nacre
     operator_.reset();
     discretization_.reset();
 
-    Timer timer(communicator_, true);
+    CpuTimer timer(communicator_);
     discretization_ = std::make_unique<Discretization>(
       refined_mesh_ != nullptr ?
         std::move(refined_mesh_) :
@@ -255,8 +254,7 @@ namespace Nacre
                                                 SolverStorage::multigrid,
                   free_memory(communicator_),
                   log);
-    timer.stop();
-    times_.setup = timer.cpu_time();
+    times_.setup = timer.lap();
   }
 
   void
@@ -311,7 +309,7 @@ namespace Nacre
                             const PathObserver &observer,
                             Log                &log)
   {
-    Timer             timer(communicator_, true);
+    CpuTimer          timer(communicator_);
     const std::string failure = path_->run(
       state,
       [&](const PathState &step) {
@@ -321,8 +319,7 @@ namespace Nacre
       [&](const std::string &text) { log.progress() << text << std::endl; });
     take_state(state);
     solver_record_.name = solver_->name();
-    timer.stop();
-    times_.solve = timer.cpu_time();
+    times_.solve        = timer.lap();
     return failure;
   }
 
@@ -403,25 +400,20 @@ namespace Nacre
   void
   ShellProblem::solve_linear_system(Log &log)
   {
-    Timer      timer(communicator_, true);
-    const auto lap = [&](double &sum) {
-      timer.stop();
-      sum += timer.cpu_time();
-      timer.restart();
-    };
+    CpuTimer        timer(communicator_);
     const IndexSet &owned       = discretization_->locally_owned_dofs();
     const auto     &constraints = conditions_->constraints();
     operator_->reinit_matrix(constraints, matrix_);
     TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
     TrilinosWrappers::MPI::Vector solution(owned, communicator_);
-    lap(times_.setup);
+    times_.setup += timer.lap();
     operator_->assemble_system(constraints, matrix_, right_hand_side);
-    lap(times_.assembly);
+    times_.assembly += timer.lap();
 
     solver_->prepare({matrix_, constraints, nullptr});
     const auto accuracy = solver_->solve(solution, right_hand_side);
     solver_record_      = {solver_->name(), accuracy.n_iterations};
-    lap(times_.solve);
+    times_.solve += timer.lap();
     judge(accuracy, log);
 
     constraints.distribute(solution);
@@ -432,7 +424,7 @@ namespace Nacre
     if (goal_ != nullptr)
       {
         solve_dual(*solver_, constraints);
-        lap(times_.solve);
+        times_.solve += timer.lap();
       }
   }
 
