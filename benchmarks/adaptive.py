@@ -4,6 +4,7 @@
 """Adaptive beside global refinement: dofs and CPU seconds against the error.
 
   benchmarks/adaptive.py NACRE [-o FOLDER] [--cases NAME,...] [--degrees P,...]
+                         [--max-dofs N]
 
 Runs prm/benchmarks/adaptive_CASE.prm twice for each degree, as it is and with
 all cells refined, and writes into FOLDER (output/adaptive) the tables of both,
@@ -29,19 +30,21 @@ CASES = {"l_plate": ("U", (1e-2, 1e-3, 1e-4, 1e-5),
          "pinched_cylinder": ("w", (2e-2, 1e-2, 1e-3, 1e-4), ()),
          "hemisphere": ("w", (5e-3, 1e-3, 1e-4, 2e-5), ())}
 GLOBAL = ["Adaptive refinement/Marking=fixed fraction",
-          "Adaptive refinement/Fraction=1",
-          "Adaptive refinement/Max dofs=25000"]
+          "Adaptive refinement/Fraction=1"]
 COLOURS = {2: "#0072b2", 3: "#d55e00", 4: "#009e73", 5: "#cc79a7"}
 
 
-def run(nacre, folder, case, degree, everywhere):
+def run(nacre, folder, case, degree, everywhere, max_dofs):
     """Rows (dofs, seconds, error, estimated energy norm) of one run."""
     name = f"{case}_p{degree}_{'global' if everywhere else 'adaptive'}"
     command = [nacre, str(ROOT / f"prm/benchmarks/adaptive_{case}.prm"),
                "--quiet"]
+    settings = GLOBAL if everywhere else []
+    if everywhere or max_dofs:
+        settings = settings + ["Adaptive refinement/Max dofs="
+                               f"{max_dofs or 25000}"]
     for override in [f"Study/Name={name}", f"Study/Output folder={folder}",
-                     f"Study/Degrees={degree}", "Study/Write VTU=false"] + (
-                         GLOBAL if everywhere else []):
+                     f"Study/Degrees={degree}", "Study/Write VTU=false"] + settings:
         command += ["--set", override]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     rows, before = [], 0.
@@ -137,6 +140,9 @@ def main():
     parser.add_argument("-o", "--output", default="output/adaptive")
     parser.add_argument("--cases", default=",".join(CASES))
     parser.add_argument("--degrees", default="2,3,4")
+    parser.add_argument("--max-dofs", type=int, metavar="N",
+                        help="end there; default: what the .prm says, and "
+                        "25000 with all cells refined")
     arguments = parser.parse_args()
     folder = pathlib.Path(arguments.output)
     folder.mkdir(parents=True, exist_ok=True)
@@ -144,7 +150,8 @@ def main():
         if case not in CASES:
             parser.error(f"--cases: '{case}' is none of " + ", ".join(CASES))
         results = {degree: [run(os.path.abspath(arguments.nacre), folder, case,
-                                degree, everywhere)
+                                degree, everywhere,
+                                arguments.max_dofs)
                             for everywhere in (True, False)]
                    for degree in map(int, arguments.degrees.split(","))}
         write_markdown(folder / f"{case}.md", case, results)

@@ -62,7 +62,6 @@ class Nacre:
         # Multigrid shows a number of iterations; without the section the
         # direct solver is the only one.
         self.has_solvers = "subsection Linear solver" in self.template
-        self.has_adaptivity = "subsection Adaptive refinement" in self.template
 
     def solver_setting(self, solver):
         return {"Linear solver/Solver": solver} if self.has_solvers else {}

@@ -6,7 +6,8 @@ import tempfile
 
 import paper
 from calculix import PROBLEMS, CalculiX
-from runs import RunError, build_empty_program, find_calculix, measure, seconds
+from runs import (PROJECT, RunError, build_empty_program, find_calculix,
+                  measure, seconds)
 
 # Seconds to 1 % and 0.1 % of other codes on one core of an Intel Xeon at
 # 2.1 GHz, as the project was given them; not measured here.
@@ -190,12 +191,12 @@ def assembly(context):
         list(rows[0]), rows, [f"the least of {context.repeat} runs"])
 
 
-def solver_rows(context, solver, cases):
+def solver_rows(context, solver, cases, more=None):
     rows = []
     for degree, n, refinements in cases:
         row = context.nacre.best(
             "benchmarks/scordelis_lo.prm",
-            context.settings(degree, n, (refinements,), solver),
+            context.settings(degree, n, (refinements,), solver, **(more or {})),
             context.repeat)[0][0]
         rows.append({"p": degree, "dofs": row["dofs"],
                      "solver": row.get("solver", ""),
@@ -219,37 +220,68 @@ def direct(context):
         rows, ["peak GB: of the whole program, the system's pages included"])
 
 
+# Radii, for the thickness of a shell R/h.
+RADII = {"scordelis_lo": 25., "pinched_cylinder": 300.,
+         "hemisphere_hole": 10., "hemisphere": 10.}
+# Further elements, meshes without refinements, and hanging nodes.
+OTHER_CELLS = [
+    ("8-node cells", 2, 4, 5, {"Discretization/Element": "serendipity"}),
+    ("6-node triangles", 2, 4, 4, {"Discretization/Element": "triangle"}),
+    ("one mesh", 3, 64, 0, {}), ("one mesh", 4, 48, 0, {})]
+
+
+def iteration_rows(context):
+    """Iterations for several slendernesses and numbers of dofs."""
+    for problem in (["scordelis_lo"] if context.quick else RADII):
+        for degree in ((3,) if context.quick else (2, 3, 4)):
+            refinements = (2,) if context.quick else \
+                {2: (4, 5), 3: (3, 4), 4: (2, 3)}[degree]
+            for slenderness in ((100,) if context.quick else
+                                (100, 1000, 10000)):
+                thickness = RADII[problem] / slenderness
+                for row in context.nacre.run(
+                        f"benchmarks/{problem}.prm",
+                        context.settings(degree, 4, refinements, "multigrid",
+                                         **{"Section/Thickness": thickness})
+                        )[0]:
+                    yield {"problem": problem, "p": degree,
+                           "R/h": slenderness, "dofs": row["dofs"],
+                           "solver": row["solver"],
+                           "iterations": row["iterations"]}
+
+
+def other_rows(context):
+    """Multigrid beside the direct solver where the hierarchy is another."""
+    for mesh, degree, n, refinements, more in OTHER_CELLS:
+        if context.quick:
+            n, refinements = (8, 0) if refinements == 0 else (2, 2)
+        for solver in ("multigrid", "direct"):
+            yield dict(solver_rows(context, solver, [(degree, n, refinements)],
+                                   more)[0], mesh=mesh)
+
+
 def multigrid(context):
     """the multilevel solver: iterations, seconds and memory"""
     if "multigrid" not in context.solvers():
         context.say("This nacre has no multigrid.")
         return
     cases = [(3, 2, 2)] if context.quick else [
-        (2, 4, 4), (2, 4, 5), (3, 4, 3), (3, 4, 4), (3, 4, 5), (3, 6, 5),
-        (4, 4, 4)]
+        (2, 4, 4), (2, 4, 5), (2, 9, 5), (3, 4, 3), (3, 4, 4), (3, 4, 5),
+        (3, 3, 6), (4, 4, 3), (4, 4, 4), (4, 9, 4)]
     rows = solver_rows(context, "multigrid", cases)
     context.report.table(
         "multigrid", "Multigrid, Scordelis-Lo roof, one rank", list(rows[0]),
         rows, ["solve s: levels, smoothers and iterations"])
-    thin = {"scordelis_lo": 0.25, "pinched_cylinder": 3.,
-            "hemisphere_hole": 0.04}
-    rows = []
-    for problem in (["scordelis_lo"] if context.quick else PROBLEMS):
-        for degree in ((3,) if context.quick else (2, 3, 4)):
-            for factor in ((1,) if context.quick else (1, 0.1)):
-                r = 2 if context.quick else {2: 5, 3: 4, 4: 4}[degree]
-                row = context.nacre.run(
-                    f"benchmarks/{problem}.prm",
-                    context.settings(degree, 4, (r,), "multigrid", **{
-                        "Section/Thickness": thin[problem] * factor}))[0][0]
-                rows.append({"problem": problem, "p": degree,
-                             "thickness": thin[problem] * factor,
-                             "dofs": row["dofs"], "solver": row["solver"],
-                             "iterations": row["iterations"]})
+    rows = list(iteration_rows(context))
     context.report.table(
         "multigrid", "Iterations of multigrid", list(rows[0]), rows,
         ["solver 'direct': multigrid gave up and the direct solver took over"],
         name="iterations")
+    rows = list(other_rows(context))
+    context.report.table(
+        "multigrid", "Other cells, and meshes without refinements",
+        ["mesh"] + [name for name in rows[0] if name != "mesh"], rows,
+        ["one mesh: the coarse level has degree 2"], name="others")
 
 
 # --- several ranks ------------------------------------------------------------
@@ -279,8 +311,7 @@ def add_speed_ups(rows):
         one = next(other for other in rows if other["ranks"] == 1 and
                    other["scaling"] == row["scaling"] and
                    other["solver"] == row["solver"])
-        factor = 1. if row["scaling"] == "strong" else \
-            row["dofs"] / one["dofs"]
+        factor = row["dofs"] / one["dofs"]
         for part in ("assembly", "wall"):
             row[f"{part}, times"] = factor * one[f"{part} s"] / \
                 max(row[f"{part} s"], 1e-6)
@@ -302,6 +333,10 @@ def scaling(context):
         for ranks in (1, 2):
             rows.append(ranks_row(context, "weak", solver, 3, half[ranks],
                                   r if solver == "multigrid" else 0, ranks))
+        if solver == "multigrid" and not context.quick:
+            for ranks in (1, 2):
+                rows.append(ranks_row(context, "10^6 dofs", solver, 3, 3, 6,
+                                      ranks))
     add_speed_ups(rows)
     context.report.table(
         "scaling", "One rank and two, Scordelis-Lo roof, p = 3",
@@ -350,40 +385,12 @@ def extrapolation(context):
 
 def adaptive(context):
     """uniform and adaptive refinement: error against dofs and seconds"""
-    if not context.nacre.has_adaptivity:
-        context.say("This nacre has no adaptive refinement.")
-        return
-    rows, panels = [], {}
-    for problem in ("adaptive_pinched_cylinder", "adaptive_hemisphere"):
-        for degree in ((2,) if context.quick else (2, 3)):
-            for how in ("adaptive", "uniform"):
-                more = {"Study/Degrees": degree}
-                if how == "uniform":
-                    more.update({"Adaptive refinement/Marking":
-                                 "fixed fraction",
-                                 "Adaptive refinement/Fraction": 1})
-                if context.quick:
-                    more["Adaptive refinement/Max dofs"] = 500
-                found = context.nacre.run(f"benchmarks/{problem}.prm", more)[0]
-                total = 0.
-                for row in found:
-                    # All meshes up to this one are part of the price.
-                    total += seconds(row) + (row.get("estimate_s") or 0.)
-                    rows.append({"problem": problem, "p": degree,
-                                 "refinement": how, "dofs": row["dofs"],
-                                 "error": abs(row["ratio"] - 1.),
-                                 "cpu_s": seconds(row),
-                                 "cpu_s of all meshes": total})
-                chosen = rows[-len(found):]
-                panels.setdefault(problem.replace("_", " "), {})[
-                    f"p = {degree}, {how}"] = (
-                        [row["dofs"] for row in chosen],
-                        [row["error"] for row in chosen])
-    context.report.table("adaptive", "Uniform and adaptive refinement",
-                         list(rows[0]), rows,
-                         ["error: |w / w_KL - 1| under the force"])
-    context.report.plot("adaptive", panels, "degrees of freedom",
-                        "relative error of the displacement")
+    command = [PROJECT / "benchmarks" / "adaptive.py", context.nacre.program,
+               "--output", context.report.folder / "adaptive"]
+    if context.quick:
+        command += ["--cases", "hemisphere", "--degrees", "2", "--max-dofs",
+                    "500"]
+    print(measure(command, PROJECT).output)
 
 
 # --- start --------------------------------------------------------------------

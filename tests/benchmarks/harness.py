@@ -15,7 +15,8 @@ import subprocess
 import sys
 import tempfile
 
-FILES = ("peers_meshes", "peers", "assembly", "direct", "scaling")
+FILES = ("peers_meshes", "peers", "assembly", "direct", "multigrid",
+         "multigrid_iterations", "multigrid_others", "scaling")
 
 
 def rows(file):
@@ -49,6 +50,8 @@ def check_results(folder):
           f"meshes: {meshes}")
     check(all(float(row["error"]) < 1e-4 for row in meshes),
           f"errors: {meshes}")
+    text = (folder / "adaptive" / "hemisphere.md").read_text()
+    check("dofs, global" in text, "adaptive: no table")
     ranks = [int(row["ranks"]) for row in rows(folder / "scaling.csv")]
     check(set(ranks) == {1, 2}, f"ranks: {ranks}")
 
@@ -82,7 +85,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         command = [run, "--quick", "--nacre", nacre, "--output", folder,
                    "--only", "peers,assembly,direct", "--only",
-                   "multigrid,scaling"]
+                   "multigrid,scaling,adaptive"]
         done = subprocess.run(command, capture_output=True, text=True,
                               check=False)
         check(done.returncode == 0, done.stdout + done.stderr)
