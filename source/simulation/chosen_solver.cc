@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace Nacre
@@ -38,10 +37,10 @@ namespace Nacre
       return Text::trim(text.str());
     }
 
-    const std::array<MeasuredCosts, 4> costs = {{{3.6, 0.1, 1.6, 2.4, 0.7},
-                                                 {6.3, 0.2, 1.4, 2.2, 1.0},
-                                                 {9.4, 0.3, 2.3, 2.4, 1.5},
-                                                 {13.0, 0.4, 4.0, 3.0, 2.0}}};
+    const std::array<MeasuredCosts, 4> costs = {{{3.6, 0.1, 1.5, 2.0, 0.7},
+                                                 {6.2, 0.2, 1.4, 1.4, 1.0},
+                                                 {10., 0.3, 2.3, 1.5, 1.5},
+                                                 {13., 0.4, 4.0, 2.0, 2.0}}};
   } // namespace
 
   LinearSolverParameters::LinearSolverParameters()
@@ -78,32 +77,6 @@ namespace Nacre
              n <
            cost.factorise * std::pow(n, power_of_factors) +
              task.n_right_hand_sides * cost.substitute * n;
-  }
-
-  double
-  free_memory(const MPI_Comm communicator)
-  {
-    // Ranks of one machine see the same memory: each counts its share.
-    MPI_Comm machine;
-    MPI_Comm_split_type(communicator,
-                        MPI_COMM_TYPE_SHARED,
-                        0,
-                        MPI_INFO_NULL,
-                        &machine);
-    const unsigned int n_sharing = Utilities::MPI::n_mpi_processes(machine);
-    MPI_Comm_free(&machine);
-
-    double        kilobytes = 0.;
-    std::ifstream file("/proc/meminfo");
-    for (std::string word; file >> word;)
-      if (word == "MemAvailable:")
-        {
-          file >> kilobytes;
-          break;
-        }
-    // Where nothing is known, memory doesn't decide.
-    const double mine = kilobytes > 0. ? kilobytes / 1e6 / n_sharing : 1e6;
-    return Utilities::MPI::sum(mine, communicator);
   }
 
   ChosenSolver::ChosenSolver(const MPI_Comm communicator,

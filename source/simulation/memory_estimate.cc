@@ -5,8 +5,7 @@
 #include <nacre/discretization/discretization.h>
 #include <nacre/simulation/memory_estimate.h>
 
-#include <deal.II/base/utilities.h>
-
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -23,12 +22,14 @@ namespace Nacre
     constexpr double bytes_of_program = 0.18e9;
     /** For each node of each cell: geometry, numbers, constraints. */
     constexpr double bytes_per_cell_node = 500.;
-    /** 8 for the number, 4 for its column, 4 in the pattern. */
-    constexpr double bytes_per_entry = 16.;
+    /** 8 for the number, 4 for its column. */
+    constexpr double bytes_per_entry = 12.;
     /** Of the direct solver: bytes / (N log2 N), by degree from 2. */
-    constexpr double bytes_of_factors[] = {400., 660., 880., 1150.};
+    constexpr double bytes_of_factors[] = {420., 660., 900., 1150.};
     /** Levels, prolongations, patches: bytes / N by degree from 2. */
-    constexpr double bytes_of_levels[] = {1800., 2200., 3500., 6000.};
+    constexpr double bytes_of_levels[] = {1700., 1900., 2500., 3500.};
+    /** Factors of the coarsest level. */
+    constexpr double bytes_of_coarsest_level = 0.1e9;
 
     std::string
     in_gigabytes(const double value)
@@ -69,10 +70,11 @@ namespace Nacre
     estimate.mesh =
       bytes_per_cell_node * n_cells * (degree + 1) * (degree + 1) / giga;
     estimate.matrix = bytes_per_entry * entries_per_row(degree) * n / giga;
-    estimate.solver = (storage == SolverStorage::factors ?
-                         bytes_of_factors[degree - 2] * n * std::log2(n + 1.) :
-                         bytes_of_levels[degree - 2] * n) /
-                      giga;
+    estimate.solver =
+      (storage == SolverStorage::factors ?
+         bytes_of_factors[degree - 2] * n * std::log2(n + 1.) :
+         bytes_of_levels[degree - 2] * n + bytes_of_coarsest_level) /
+      giga;
     return estimate;
   }
 
@@ -99,20 +101,23 @@ namespace Nacre
 
   namespace
   {
-    /** Bytes of this process' pages that are parts of files: the program. */
+    /**
+     * The number of bytes behind @p key in a file of Linux that counts in kB
+     * of 1024 bytes; -1 where there is none.
+     */
     double
-    bytes_of_files()
+    read_bytes(const std::string &file, const std::string &key)
     {
-      std::ifstream status("/proc/self/status");
-      for (std::string line; std::getline(status, line);)
-        if (line.rfind("RssFile:", 0) == 0)
-          return 1024. * std::strtod(line.c_str() + 8, nullptr);
-      return 0.;
+      std::ifstream lines(file);
+      for (std::string line; std::getline(lines, line);)
+        if (line.rfind(key + ":", 0) == 0)
+          return 1024. * std::strtod(line.c_str() + key.size() + 1, nullptr);
+      return -1.;
     }
 
-    /** Sum over the ranks, which share the files on each machine; in GB. */
-    double
-    sum_memory(const double bytes, const MPI_Comm communicator)
+    /** Number of ranks on the machine of this one; collective. */
+    unsigned int
+    n_ranks_here(const MPI_Comm communicator)
     {
       MPI_Comm machine;
       int      ierr = MPI_Comm_split_type(communicator,
@@ -121,29 +126,46 @@ namespace Nacre
                                      MPI_INFO_NULL,
                                      &machine);
       AssertThrowMPI(ierr);
-      const double n_ranks = Utilities::MPI::n_mpi_processes(machine);
-      ierr                 = MPI_Comm_free(&machine);
+      const unsigned int result = Utilities::MPI::n_mpi_processes(machine);
+      ierr                      = MPI_Comm_free(&machine);
       AssertThrowMPI(ierr);
-      return Utilities::MPI::sum(bytes - (1. - 1. / n_ranks) * bytes_of_files(),
-                                 communicator) /
-             giga;
+      return result;
+    }
+
+    /**
+     * The processes' memory of kind @p key, summed over the ranks, those of a
+     * machine sharing the pages that are parts of files: the program.
+     */
+    double
+    sum_memory(const std::string &key, const MPI_Comm communicator)
+    {
+      const std::string file     = "/proc/self/status";
+      const double      mine     = std::max(read_bytes(file, key), 0.);
+      const double      of_files = std::max(read_bytes(file, "RssFile"), 0.);
+      const double      others   = 1. - 1. / n_ranks_here(communicator);
+      return Utilities::MPI::sum(mine - others * of_files, communicator) / giga;
     }
   } // namespace
 
   double
   peak_memory(const MPI_Comm communicator)
   {
-    Utilities::System::MemoryStats stats;
-    Utilities::System::get_memory_stats(stats);
-    return sum_memory(1024. * stats.VmHWM, communicator); // kB of 1024 bytes
+    return sum_memory("VmHWM", communicator);
   }
 
   double
   used_memory(const MPI_Comm communicator)
   {
-    Utilities::System::MemoryStats stats;
-    Utilities::System::get_memory_stats(stats);
-    return sum_memory(1024. * stats.VmRSS, communicator);
+    return sum_memory("VmRSS", communicator);
+  }
+
+  double
+  free_memory(const MPI_Comm communicator)
+  {
+    const double bytes = read_bytes("/proc/meminfo", "MemAvailable");
+    // Where nothing is known, memory doesn't decide.
+    const double mine = bytes < 0. ? 1e15 : bytes / n_ranks_here(communicator);
+    return Utilities::MPI::sum(mine, communicator) / giga;
   }
 
   std::string

@@ -40,14 +40,10 @@ namespace Nacre
   /**
    * Whether multigrid is expected to take less time than a factorisation, or
    * is the only one to fit into the memory, from times measured on one core:
-   * doc/performance.md.
+   * doc/solvers.md.
    */
   bool
   prefers_multigrid(const SolverTask &task);
-
-  /** Memory (GB) that the machines of all ranks have free; collective. */
-  double
-  free_memory(const MPI_Comm communicator);
 
   /**
    * The linear solver of a case: direct, or multigrid with the direct one in

@@ -81,6 +81,10 @@ namespace Nacre
   double
   used_memory(const MPI_Comm communicator);
 
+  /** Memory (GB) that the machines of all ranks have free; collective. */
+  double
+  free_memory(const MPI_Comm communicator);
+
   /**
    * Throw an ExcMessage if the @p estimate is more than half as much again as
    * @p available (GB on all machines together): a run that the system would
