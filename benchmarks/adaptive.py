@@ -47,6 +47,8 @@ def run(nacre, folder, case, degree, everywhere, max_dofs):
                      f"Study/Degrees={degree}", "Study/Write VTU=false"] + settings:
         command += ["--set", override]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    for suffix in ("txt", "tex", "used.prm"):  # the .csv holds it all
+        pathlib.Path(folder, f"{name}.{suffix}").unlink()
     rows, before = [], 0.
     with open(pathlib.Path(folder, name + ".csv"), newline="",
               encoding="utf-8") as file:

@@ -287,23 +287,34 @@ def multigrid(context):
 
 # --- several ranks ------------------------------------------------------------
 
-def ranks_row(context, kind, solver, degree, n, refinements, ranks):
-    """One run; parts in CPU seconds over ranks, which MPI spends waiting."""
-    rows, wall = context.nacre.best(
-        "benchmarks/scordelis_lo.prm",
-        context.settings(degree, n, (refinements,), solver), context.repeat,
-        ranks)
-    # The same with 16 cells: start of the program and of MPI.
-    _, start = context.nacre.best("benchmarks/scordelis_lo.prm",
-                                  context.settings(2, 4, (0,)),
-                                  context.repeat, ranks)
-    row = rows[0]
-    return {"scaling": kind, "solver": solver, "ranks": ranks,
-            "dofs": row["dofs"], "iterations": row.get("iterations", ""),
-            "set-up s": row["setup_s"] / ranks,
-            "assembly s": row["assembly_s"] / ranks,
-            "solve s": row["solve_s"] / ranks, "wall s": wall - start,
-            "peak GB": row.get("memory_gb", "")}
+def start_of(context, ranks):
+    """Wall seconds of 16 cells: the start of the program and of MPI."""
+    return context.nacre.best("benchmarks/scordelis_lo.prm",
+                              context.settings(2, 4, (0,)), context.repeat,
+                              ranks)[1]
+
+
+def ranks_rows(context, kind, solver, meshes):
+    """
+    Rows of one rank and of two, by turns: machines are not always equally
+    fast. Parts in CPU seconds over ranks, which MPI spends waiting.
+    """
+    found = {}
+    for _ in range(context.repeat):
+        for ranks, (n, refinements) in zip((1, 2), meshes):
+            rows, measurement = context.nacre.run(
+                "benchmarks/scordelis_lo.prm",
+                context.settings(3, n, (refinements,), solver), ranks)
+            if ranks not in found or measurement.wall < found[ranks][1]:
+                found[ranks] = rows[0], measurement.wall
+    return [{"scaling": kind, "solver": solver, "ranks": ranks,
+             "dofs": row["dofs"], "iterations": row.get("iterations", ""),
+             "set-up s": row["setup_s"] / ranks,
+             "assembly s": row["assembly_s"] / ranks,
+             "solve s": row["solve_s"] / ranks,
+             "wall s": wall - start_of(context, ranks),
+             "peak GB": row.get("memory_gb", "")}
+            for ranks, (row, wall) in found.items()]
 
 
 def add_speed_ups(rows):
@@ -321,28 +332,25 @@ def add_speed_ups(rows):
 def scaling(context):
     """strong and weak scaling; iterations on more ranks than cores"""
     rows = []
+    # Coarse cells along an edge and refinements; p = 3: 201 243 dofs, and
+    # 101 568 a rank
+    meshes = {"direct": {"strong": ((43, 1), (43, 1)),
+                         "weak": ((61, 0), (86, 0))},
+              "multigrid": {"strong": ((11, 3), (11, 3)),
+                            "weak": ((8, 3), (11, 3)),
+                            "10^6 dofs": ((3, 6), (3, 6))}}
+    if context.quick:
+        meshes = {solver: {"strong": ((4, 1), (4, 1)),
+                           "weak": ((4, 1), (6, 1))} for solver in meshes}
     for solver in context.solvers():
-        # p = 3: 201 243 dofs; 101 835 dofs a rank
-        n, r = (4, 1) if context.quick else (43, 1)
-        if solver == "multigrid" and not context.quick:
-            n, r = 11, 3
-        for ranks in (1, 2):
-            rows.append(ranks_row(context, "strong", solver, 3, n, r, ranks))
-        half = {1: 4, 2: 6} if context.quick else {1: 61, 2: 86}
-        if solver == "multigrid" and not context.quick:
-            half = {1: 8, 2: 11}
-        for ranks in (1, 2):
-            rows.append(ranks_row(context, "weak", solver, 3, half[ranks],
-                                  r if solver == "multigrid" else 0, ranks))
-        if solver == "multigrid" and not context.quick:
-            for ranks in (1, 2):
-                rows.append(ranks_row(context, "10^6 dofs", solver, 3, 3, 6,
-                                      ranks))
+        for kind, of_ranks in meshes[solver].items():
+            rows += ranks_rows(context, kind, solver, of_ranks)
     add_speed_ups(rows)
     context.report.table(
         "scaling", "One rank and two, Scordelis-Lo roof, p = 3",
         list(rows[0]), rows,
-        ["wall s: of the whole program, less that of a run with 16 cells",
+        ["wall s: of the whole program, less that of a run with 16 cells; the "
+         f"least of {context.repeat} runs, by turns",
          "parts: CPU seconds of all ranks over their number; ranks that wait "
          "compute nothing but count",
          "times: how many times faster than one rank, for the same work"])
