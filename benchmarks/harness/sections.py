@@ -175,21 +175,23 @@ def write_peers(context, rows, table, panels):
 def assembly(context):
     """microseconds of assembly per cell"""
     rows = []
+    repeat = 3 * context.repeat  # short, and the traffic of memory varies
     for degree in (2, 3, 4):
         for refinements in ((2,) if context.quick else (4, 5)):
-            row = context.nacre.best(
+            found = [context.nacre.run(
                 "benchmarks/scordelis_lo.prm",
-                context.settings(degree, 2, (refinements,)),
-                context.repeat)[0][0]
-            rows.append({"p": degree, "cells": row["cells"],
-                         "dofs": row["dofs"],
+                context.settings(degree, 2, (refinements,), "multigrid"))[0][0]
+                     for _ in range(repeat)]
+            cells = found[0]["cells"]
+            rows.append({"p": degree, "cells": cells,
+                         "dofs": found[0]["dofs"],
                          "microseconds per cell":
-                         1e6 * row["assembly_s"] / row["cells"],
+                         1e6 * min(row["assembly_s"] for row in found) / cells,
                          "set-up, microseconds per cell":
-                         1e6 * row["setup_s"] / row["cells"]})
+                         1e6 * min(row["setup_s"] for row in found) / cells})
     context.report.table(
         "assembly", "Assembly of a curved surface, edges included, one rank",
-        list(rows[0]), rows, [f"the least of {context.repeat} runs"])
+        list(rows[0]), rows, [f"the least of {repeat} runs"])
 
 
 def solver_rows(context, solver, cases, more=None):
