@@ -37,7 +37,8 @@ namespace Nacre
   /**
    * Conjugate gradients, preconditioned by a V-cycle of geometric multigrid
    * with one multiplicative sweep over vertex patches (PatchSmoother) before
-   * and one, backwards, after each coarse correction.
+   * and one, backwards, after each coarse correction. The first solution comes
+   * from the coarsest level up, with one V-cycle on each (full multigrid).
    *
    * The levels are complete discretizations on meshes that are coarsened
    * everywhere as far as hanging nodes permit, with stiffness matrices
