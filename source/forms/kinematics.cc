@@ -13,6 +13,12 @@ namespace Nacre
     return names;
   }
 
+  bool
+  recovers_tied_strain(const MembraneStrain membrane_strain)
+  {
+    return membrane_strain != MembraneStrain::full;
+  }
+
   const std::vector<std::string> &
   edge_form_names()
   {

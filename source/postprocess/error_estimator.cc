@@ -88,7 +88,7 @@ namespace Nacre
       , fields_(fields)
       , stresses_(discretization_,
                   estimator.section_,
-                  estimator.kinematics_.membrane_strain == MembraneStrain::tied,
+                  recovers_tied_strain(estimator.kinematics_.membrane_strain),
                   displacements(fields))
       , weights_(discretization_.triangulation().n_active_cells())
       , cell_values_(discretization_,

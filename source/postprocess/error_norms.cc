@@ -57,7 +57,7 @@ namespace Nacre
         , quadrature_(shell.discretization.element().fine_quadrature())
         , values_(shell.discretization,
                   quadrature_,
-                  shell.kinematics.membrane_strain == MembraneStrain::tied)
+                  recovers_tied_strain(shell.kinematics.membrane_strain))
         , fine_fe_(shell.discretization.degree() + 2)
         , fine_shapes_(fine_fe_, quadrature_.get_points())
         , dofs_(values_.n_dofs())

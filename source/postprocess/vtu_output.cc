@@ -169,7 +169,7 @@ namespace Nacre
         , rank_(Utilities::MPI::this_mpi_process(discretization.communicator()))
         , values_(discretization,
                   points,
-                  kinematics.membrane_strain != MembraneStrain::full)
+                  recovers_tied_strain(kinematics.membrane_strain))
         , u_(values_.n_dofs())
         , membrane_strains_(3 * points.size())
         , bending_strains_(3 * points.size())

@@ -28,6 +28,15 @@ namespace Nacre
   const std::vector<std::string> &
   membrane_strain_names();
 
+  /**
+   * Whether results take the tied membrane strain: for all but `full`. A form
+   * of reduced integration sees the membrane strain at its few points only; in
+   * between the strain of the displacements holds parts without a meaning,
+   * which grow against the others like the inverse of the thickness.
+   */
+  bool
+  recovers_tied_strain(const MembraneStrain membrane_strain);
+
   /** The frame in which rotations and moments of an edge are measured. */
   enum class EdgeForm
   {

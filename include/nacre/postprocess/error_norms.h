@@ -17,7 +17,7 @@ namespace Nacre
     double H1 = 0.;
     /**
      * (int eps(e):H_n:eps(e) + rho(e):H_m:rho(e) dA)^(1/2) over the cells,
-     * with the tied strain of u_h where strains are tied
+     * with the tied strain of u_h, see recovers_tied_strain(),
      * ((force length)^(1/2)).
      */
     double energy = 0.;

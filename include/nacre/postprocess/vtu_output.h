@@ -54,7 +54,8 @@ namespace Nacre
                  DataComponentInterpretation::DataComponentInterpretation>;
 
     /**
-     * @param kinematics the membrane strains are tied unless they are `full`
+     * @param kinematics decides whether membrane strains are tied, see
+     *        recovers_tied_strain()
      * @param displacement ghosted (length)
      * @param error_indicators by active cell index, if any
      * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
