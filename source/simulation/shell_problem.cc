@@ -9,6 +9,7 @@
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/chosen_solver.h>
+#include <nacre/simulation/conditioning.h>
 #include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/shell_problem.h>
 
@@ -445,8 +446,8 @@ namespace Nacre
         text << std::setprecision(1) << std::scientific
              << "the stiffness matrix is so ill-conditioned that the "
                 "displacements are uncertain by about "
-             << accuracy.correction
-             << " of their size; cells much longer than wide do that.";
+             << accuracy.correction << " of their size: "
+             << measure_conditioning(*discretization_, *section_).cause();
         log.warning(text.str());
       }
   }
