@@ -4,11 +4,12 @@ find_program(PYTHON3 python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 get_filename_component(PRM_FOLDER ${CMAKE_CURRENT_LIST_DIR}/../prm ABSOLUTE)
 
 # nacre_study(NAME prm-file [SET parameter=value...] [RANKS n]
-#             [COMPARE_RANKS n...] [EXPECT expectation...])
+#             [COMPARE_RANKS n...] [COMPARE_SET parameter=value...]
+#             [EXPECT expectation...])
 # The file is relative to prm/; see run_study.py for the expectations.
 function(nacre_study name prm)
   cmake_parse_arguments(PARSE_ARGV 2 study "" "RANKS"
-                        "SET;COMPARE_RANKS;EXPECT")
+                        "SET;COMPARE_RANKS;COMPARE_SET;EXPECT")
   set(arguments)
   foreach(override IN LISTS study_SET)
     list(APPEND arguments --set ${override})
@@ -18,6 +19,9 @@ function(nacre_study name prm)
   endif()
   foreach(ranks IN LISTS study_COMPARE_RANKS)
     list(APPEND arguments --compare-ranks ${ranks})
+  endforeach()
+  foreach(override IN LISTS study_COMPARE_SET)
+    list(APPEND arguments --compare-set ${override})
   endforeach()
   foreach(expectation IN LISTS study_EXPECT)
     list(APPEND arguments --expect ${expectation})

@@ -4,7 +4,8 @@
 """Run a parameter file in a temporary folder and check its table.
 
   run_study.py NACRE FILE.prm [--set "Section/Parameter=value"]... [--ranks N]
-               [--compare-ranks N]... --expect "[any] ROWS: CONDITION"...
+               [--compare-ranks N]... [--compare-set "Section/Parameter=value"]...
+               --expect "[any] ROWS: CONDITION"...
 
 An expectation is checked on the rows of the .csv for which ROWS holds: on all
 of them, or with the word `any` on at least one. It fails if there is no such
@@ -28,6 +29,7 @@ for example
 
 --compare-ranks N runs the file on N ranks too and compares all columns but the
 CPU seconds, memory, iterations and rates with those of the first run, to the relative --tolerance.
+--compare-set does so with a run of another value of a parameter.
 """
 
 import argparse
@@ -60,10 +62,10 @@ def start_alone(folder):
             "OMPI_MCA_orte_tmpdir_base": os.path.abspath(folder)}
 
 
-def run_nacre(arguments, ranks, folder):
+def run_nacre(arguments, ranks, folder, overrides=()):
     """Run nacre in `folder` and return the rows of its .csv."""
     command = [os.path.abspath(arguments.nacre), os.path.abspath(arguments.prm)]
-    for override in arguments.overrides:
+    for override in (*arguments.overrides, *overrides):
         command += ["--set", override]
     command += ["--set", "Study/Output folder=output", "--set", "Study/Name=study"]
     if ranks > 1:
@@ -227,7 +229,7 @@ def describe(row):
     return "p {}, eta {}, h {}, {} dofs".format(*texts)
 
 
-def compare(first, second, ranks, tolerance):
+def compare(first, second, what, tolerance):
     """Whether the tables of two runs agree; prints the largest difference."""
     def skipped(name):
         return name.startswith("rate_") or re.fullmatch(
@@ -247,7 +249,7 @@ def compare(first, second, ranks, tolerance):
             if not difference <= largest:
                 largest, where = difference, f" ({name}, {describe(a)})"
     good = largest <= tolerance
-    print(f"{'ok    ' if good else 'FAILED'} 1 and {ranks} ranks differ by "
+    print(f"{'ok    ' if good else 'FAILED'} {what} differs by "
           f"{largest:.2g}{where}, allowed are {tolerance:g}")
     return good
 
@@ -261,12 +263,14 @@ def parse_arguments():
                         metavar="Section/Parameter=value")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--compare-ranks", type=int, action="append", default=[])
+    parser.add_argument("--compare-set", action="append", default=[],
+                        metavar="Section/Parameter=value")
     parser.add_argument("--tolerance", type=float, default=1e-6)
     parser.add_argument("--expect", action="append", default=[])
     parser.add_argument("--timeout", type=float, default=300, help="seconds")
     arguments = parser.parse_args()
-    if not arguments.expect and not arguments.compare_ranks:
-        parser.error("neither --expect nor --compare-ranks: nothing to check")
+    if not (arguments.expect or arguments.compare_ranks or arguments.compare_set):
+        parser.error("neither --expect nor a comparison: nothing to check")
     return arguments
 
 
@@ -282,7 +286,13 @@ def main():
         for ranks in arguments.compare_ranks:
             with tempfile.TemporaryDirectory() as folder:
                 others = run_nacre(arguments, ranks, folder)
-            results.append(compare(rows, others, ranks, arguments.tolerance))
+            results.append(compare(rows, others, f"the run on {ranks} ranks",
+                                   arguments.tolerance))
+        for override in arguments.compare_set:
+            with tempfile.TemporaryDirectory() as folder:
+                others = run_nacre(arguments, arguments.ranks, folder,
+                                   [override])
+            results.append(compare(rows, others, override, arguments.tolerance))
     except Failure as failure:
         print(f"FAILED: {failure}")
         return 1

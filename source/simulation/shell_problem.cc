@@ -4,6 +4,7 @@
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/log.h>
 #include <nacre/discretization/displacement_conditions.h>
+#include <nacre/forms/reference_assembly.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/postprocess/error_estimator.h>
@@ -87,6 +88,14 @@ namespace Nacre
       "needs many more iterations and may not converge.",
       prm,
       Patterns::Selection("frozen|consistent"));
+    add_parameter("Assembly",
+                  assembly_name_,
+                  "fast: tables and blocks of nodes; reference: a textbook's "
+                  "loop over FEValues and FEInterfaceValues, several times "
+                  "slower, for linear analyses in the hinge form. Both give "
+                  "the same numbers.",
+                  prm,
+                  Patterns::Selection("fast|reference"));
   }
 
   ShellProblem::~ShellProblem() = default;
@@ -129,6 +138,10 @@ namespace Nacre
                 ExcMessage("Linear solver/Solver: 'multigrid' doesn't know the "
                            "inertia of a dynamic analysis; choose auto or "
                            "direct."));
+    AssertThrow(assembly_name_ == "fast" ||
+                  (is_linear() && edge_form_name_ == "hinge"),
+                ExcMessage("Discretization/Assembly: 'reference' knows linear "
+                           "analyses in the hinge form only; choose 'fast'."));
     if (is_linear())
       {
         AssertThrow(kinematics_name_ == "linear",
@@ -401,15 +414,26 @@ namespace Nacre
   void
   ShellProblem::solve_linear_system(Log &log)
   {
-    CpuTimer        timer(communicator_);
-    const IndexSet &owned       = discretization_->locally_owned_dofs();
-    const auto     &constraints = conditions_->constraints();
-    operator_->reinit_matrix(constraints, matrix_);
+    CpuTimer                      timer(communicator_);
+    const IndexSet               &owned = discretization_->locally_owned_dofs();
+    const auto                   &constraints = conditions_->constraints();
     TrilinosWrappers::MPI::Vector right_hand_side(owned, communicator_);
     TrilinosWrappers::MPI::Vector solution(owned, communicator_);
-    times_.setup += timer.lap();
-    operator_->assemble_system(constraints, matrix_, right_hand_side);
-    times_.assembly += timer.lap();
+    const auto                    assemble = [&](const auto &assembly) {
+      assembly.reinit_matrix(constraints, matrix_);
+      times_.setup += timer.lap();
+      assembly.assemble_system(constraints, matrix_, right_hand_side);
+      times_.assembly += timer.lap();
+    };
+    if (assembly_name_ == "fast")
+      assemble(*operator_);
+    else
+      assemble(ReferenceAssembly(*discretization_,
+                                 *section_,
+                                 boundary_conditions_,
+                                 loads_,
+                                 operator_->penalty(),
+                                 kinematics_options().membrane_strain));
 
     solver_->prepare({matrix_, constraints, nullptr});
     const auto accuracy = solver_->solve(solution, right_hand_side);

@@ -64,9 +64,9 @@ def main():
     # seconds aren't compared; a nan is a difference even to itself
     finite, finite_other = rows[:4], other[:4]
     for tolerance, expected in (1e-6, True), (1e-8, False):
-        if run_study.compare(finite, finite_other, 2, tolerance) != expected:
+        if run_study.compare(finite, finite_other, "a run", tolerance) != expected:
             wrong.append(f"compare to {tolerance}")
-    if run_study.compare(rows, rows, 2, 1e-6):
+    if run_study.compare(rows, rows, "a run", 1e-6):
         wrong.append("compare nan")
     for text in wrong:
         print(f"WRONG: {text}")

@@ -255,6 +255,7 @@ namespace Nacre
     std::string  edge_form_name_       = "hinge";
     std::string  kinematics_name_      = "linear";
     std::string  tangent_name_         = "consistent";
+    std::string  assembly_name_        = "fast";
 
     ShellCase    case_;
     Constants    constants_;
