@@ -307,7 +307,7 @@ namespace Nacre
         const double dA    = fe_values.JxW(q);
         const auto   H     = section_.stiffness(frame, x); // (8)-(10)
 
-        // eps(v):H_n:eps(u) + rho(v):H_m:rho(u)  (N.10)
+        // (N.10): eps(v):H_n:eps(u) + rho(v):H_m:rho(u)
         const auto eps = tied_membrane_strain(scratch.tying, samples, q);
         for (const unsigned int i : fe_values.dof_indices())
           rho[i] = bending_strain(fe_values, frame, i, q);
@@ -423,7 +423,8 @@ namespace Nacre
                 mean[i] += 0.5 * sigma * side_plus.m_nn[i_plus];
               }
           }
-        // eta D [[theta]] [[theta]] - {m_nn} [[theta]] - [[theta]] {m_nn}  (N.12)
+        // (N.12): eta D [[theta]] [[theta]] - {m_nn} [[theta]]
+        //         - [[theta]] {m_nn}
         const double D = 0.5 * (side_minus.D + side_plus.D);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
@@ -465,7 +466,7 @@ namespace Nacre
               part.vector(i) -= moment->second(x) * side.theta[i] * ds;
             if (!rotates)
               continue;
-            // 2 eta D theta theta + m_nn theta + theta m_nn  (N.15), (N.16)
+            // (N.15), (N.16): 2 eta D theta theta + m_nn theta + theta m_nn
             const double test =
               2. * eta * side.D * side.theta[i] + side.m_nn[i];
             part.vector(i) += test * (*edge->second.rotation)(x)*ds;
