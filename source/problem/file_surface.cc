@@ -142,7 +142,12 @@ namespace Nacre
     const std::string curvature = input.choice("Curvature", curvatures);
     const InputFile   file      = input.file("File name");
 
-    MeshFile           mesh     = read_mesh(file.content, file.path);
+    MeshFile           mesh     = read_mesh(file,
+                              [&input](const std::string &name,
+                                       const std::string &folder,
+                                       const std::string &where) {
+                                return input.file_beside(name, folder, where);
+                              });
     const MeshBoundary boundary = check_mesh(mesh);
     SurfaceDescription surface =
       describe_surface(mesh, boundary, curvature == "flat");

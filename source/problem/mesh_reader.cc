@@ -66,17 +66,36 @@ namespace Nacre
 
 
   MeshText::MeshText(const std::string &content, const std::string &path)
-    : content_(content)
-    , path_(path)
-  {}
+  {
+    sources_.push_back({content, path});
+  }
+
+
+  MeshText::Source &
+  MeshText::source()
+  {
+    return sources_.back();
+  }
+
+
+  void
+  MeshText::include(InputFile file)
+  {
+    for (const Source &open : sources_)
+      if (open.path == file.path)
+        fail("the file '" + file.path + "' includes itself.");
+    included_.push_back(std::move(file));
+    sources_.push_back({included_.back().content, included_.back().path});
+  }
 
 
   void
   MeshText::skip_white_space()
   {
-    while (position_ < content_.size() && is_space(content_[position_]))
-      if (content_[position_++] == '\n')
-        ++line_;
+    Source &s = source();
+    while (s.position < s.content.size() && is_space(s.content[s.position]))
+      if (s.content[s.position++] == '\n')
+        ++s.line;
   }
 
 
@@ -84,14 +103,19 @@ namespace Nacre
   MeshText::at_end()
   {
     skip_white_space();
-    return position_ == content_.size();
+    while (sources_.size() > 1 && !has_line())
+      {
+        sources_.pop_back();
+        skip_white_space();
+      }
+    return !has_line();
   }
 
 
   bool
   MeshText::has_line() const
   {
-    return position_ < content_.size();
+    return sources_.back().position < sources_.back().content.size();
   }
 
 
@@ -100,13 +124,12 @@ namespace Nacre
   {
     if (!has_line())
       fail("the file ends where " + what + " should be: it is truncated.");
-    const auto        end = content_.find('\n', position_);
-    const std::string text =
-      content_.substr(position_,
-                      end == std::string::npos ? end : end - position_);
-    position_ = end == std::string::npos ? content_.size() : end + 1;
-    if (end != std::string::npos)
-      ++line_;
+    Source           &s   = source();
+    const auto        end = s.content.find('\n', s.position);
+    const std::string text(s.content.substr(s.position, end - s.position));
+    const bool        is_last = end == std::string_view::npos;
+    s.position                = is_last ? s.content.size() : end + 1;
+    s.line += is_last ? 0 : 1;
     return Text::trim(text);
   }
 
@@ -115,10 +138,10 @@ namespace Nacre
   MeshText::peek_line()
   {
     skip_white_space();
-    const auto end = content_.find('\n', position_);
+    const Source &s   = source();
+    const auto    end = s.content.find('\n', s.position);
     return Text::trim(
-      content_.substr(position_,
-                      end == std::string::npos ? end : end - position_));
+      std::string(s.content.substr(s.position, end - s.position)));
   }
 
 
@@ -127,10 +150,11 @@ namespace Nacre
   {
     if (at_end())
       fail("the file ends where " + what + " should be: it is truncated.");
-    const auto begin = position_;
-    while (position_ < content_.size() && !is_space(content_[position_]))
-      ++position_;
-    return content_.substr(begin, position_ - begin);
+    Source    &s     = source();
+    const auto begin = s.position;
+    while (s.position < s.content.size() && !is_space(s.content[s.position]))
+      ++s.position;
+    return std::string(s.content.substr(begin, s.position - begin));
   }
 
 
@@ -197,19 +221,32 @@ namespace Nacre
   }
 
 
+  std::string
+  MeshText::where() const
+  {
+    return "The mesh file '" + sources_.back().path + "', line " +
+           std::to_string(sources_.back().line);
+  }
+
+
   void
   MeshText::fail(const std::string &text) const
   {
-    throw StandardExceptions::ExcMessage("The mesh file '" + path_ +
-                                         "', line " + std::to_string(line_) +
-                                         ": " + text);
+    throw StandardExceptions::ExcMessage(where() + ": " + text);
   }
 
 
   const std::string &
   MeshText::path() const
   {
-    return path_;
+    return sources_.front().path;
+  }
+
+
+  const std::string &
+  MeshText::source_path() const
+  {
+    return sources_.back().path;
   }
 
 
@@ -259,6 +296,16 @@ namespace Nacre
       text_.fail(node + " stands twice.");
     mesh_.nodes.push_back(position);
     mesh_.node_numbers.push_back(number);
+  }
+
+
+  std::optional<Point<3>>
+  MeshBuilder::find_node(const long long number) const
+  {
+    const auto found = node_indices_.find(number);
+    if (found == node_indices_.end())
+      return {};
+    return mesh_.nodes[found->second];
   }
 
 

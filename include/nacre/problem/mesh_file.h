@@ -4,8 +4,10 @@
 #ifndef nacre_problem_mesh_file_h
 #define nacre_problem_mesh_file_h
 
+#include <nacre/base/input_file.h>
 #include <nacre/base/types.h>
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,15 +103,24 @@ namespace Nacre
   };
 
   /**
-   * The mesh in a file's @p content; the format is recognised by the content:
-   * gmsh .msh 2 and 4.1, VTK legacy, Abaqus .inp, UCD (AVS), as text. Throws
-   * an ExcMessage with @p path and the line for what isn't in the format, and
+   * How to read a file that a mesh file includes: its name, relative to the
+   * folder of the file that includes it or to the current one, that folder,
+   * and the place that names it, for messages. All ranks call it.
+   */
+  using OpenFile = std::function<InputFile(const std::string &name,
+                                           const std::string &folder,
+                                           const std::string &where)>;
+
+  /**
+   * The mesh in a @p file; the format is recognised by the content: gmsh .msh
+   * 2 and 4.1, VTK legacy, Abaqus .inp, UCD (AVS), as text. Throws an
+   * ExcMessage with the path and the line for what isn't in the format, and
    * with the number of the element or node for solid cells, cells of higher
    * degree, nodes that aren't defined or are twice, coordinates that aren't
    * finite.
    */
   MeshFile
-  read_mesh(const std::string &content, const std::string &path);
+  read_mesh(const InputFile &file, const OpenFile &open);
 
   /** The boundary of a mesh that has passed check_mesh(). */
   struct MeshBoundary

@@ -4,11 +4,14 @@
 #ifndef nacre_problem_mesh_reader_h
 #define nacre_problem_mesh_reader_h
 
+#include <nacre/base/input_file.h>
 #include <nacre/problem/mesh_file.h>
 
+#include <list>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -18,7 +21,15 @@ namespace Nacre
   class MeshText
   {
   public:
+    /** @p content must outlive this. */
     MeshText(const std::string &content, const std::string &path);
+
+    /**
+     * Read @p file next, and after its end, which at_end() notices, go on
+     * here. Fails if it is being read already.
+     */
+    void
+    include(InputFile file);
 
     /** Whether nothing but white space is left. */
     bool
@@ -61,8 +72,16 @@ namespace Nacre
     [[noreturn]] void
     fail(const std::string &text) const;
 
+    /** "The mesh file 'path', line 7" */
+    std::string
+    where() const;
+
     const std::string &
     path() const;
+
+    /** The path of the file that is being read: of one that is included. */
+    const std::string &
+    source_path() const;
 
     /** @name Words of a line that was taken */
     //@{
@@ -77,10 +96,22 @@ namespace Nacre
     void
     skip_white_space();
 
-    const std::string &content_;
-    const std::string  path_;
-    std::size_t        position_ = 0;
-    unsigned int       line_     = 1;
+    /** A file and how far it is read. */
+    struct Source
+    {
+      std::string_view content;
+      std::string      path;
+      std::size_t      position = 0;
+      unsigned int     line     = 1;
+    };
+
+    Source &
+    source();
+
+    /** The file, the one that it includes, and so on. */
+    std::vector<Source> sources_;
+    /** Contents of included files. */
+    std::list<InputFile> included_;
   };
 
   /** Shapes of elements, whatever a format calls them. */
@@ -127,6 +158,10 @@ namespace Nacre
     void
     add_node(const long long number, const Point<3> &position);
 
+    /** The position of a node that was added, else nothing. */
+    std::optional<Point<3>>
+    find_node(const long long number) const;
+
     /**
      * @param nodes numbers of the nodes: corners counterclockwise, then the
      *        middles of the sides from the first side on, then the centre.
@@ -167,6 +202,20 @@ namespace Nacre
   std::vector<std::string>
   group_names(const long long group);
 
+  /**
+   * Throw what to do with a file of another format that meshes come in, if
+   * @p file is one.
+   */
+  void
+  refuse_other_formats(const InputFile &file);
+
+  /**
+   * Make triangles of quadrilaterals with two neighbouring corners in one, if
+   * all cells are such; refuse the mesh if some are.
+   */
+  void
+  make_triangles_of_collapsed_cells(MeshFile &mesh);
+
   /** @name Readers of one format each */
   //@{
   MeshFile
@@ -175,8 +224,9 @@ namespace Nacre
   MeshFile
   read_vtk_mesh(MeshText &text);
 
+  /** @p open reads the files that the mesh includes. */
   MeshFile
-  read_abaqus_mesh(MeshText &text);
+  read_abaqus_mesh(MeshText &text, const OpenFile &open);
 
   MeshFile
   read_ucd_mesh(MeshText &text);
