@@ -3,6 +3,7 @@
 
 #include <nacre/base/text.h>
 #include <nacre/problem/abaqus_deck.h>
+#include <nacre/problem/abaqus_notes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,35 +14,6 @@ namespace Nacre
   namespace
   {
     using namespace Abaqus;
-
-    /** "3 elements of the type B31 (beams)" */
-    std::string
-    describe(const std::size_t n, const ElementType &type)
-    {
-      return std::to_string(n) + (n == 1 ? " element" : " elements") +
-             " of the type " + type.kind.name + " (" + type.plural + ")";
-    }
-
-    /** How many elements there are of each type, by its name. */
-    class CountedTypes
-    {
-    public:
-      void
-      add(const ElementType &type)
-      {
-        ++types_.emplace(type.kind.name, std::make_pair(type, 0))
-            .first->second.second;
-      }
-
-      const std::map<std::string, std::pair<ElementType, std::size_t>> &
-      types() const
-      {
-        return types_;
-      }
-
-    private:
-      std::map<std::string, std::pair<ElementType, std::size_t>> types_;
-    };
 
     /** An Abaqus input file: keyword lines, "*NODE", and lines of data. */
     class AbaqusReader
@@ -72,7 +44,11 @@ namespace Nacre
           text_.fail("the file has no elements (*ELEMENT): it is truncated or "
                      "no mesh.");
         add_rigid_cells();
-        add_notes();
+        deck_.notes = notes_.sentences();
+        if (!has_cells_)
+          text_.fail("the file has no cells of a surface (shells, membranes or "
+                     "plane elements)." +
+                     (deck_.notes.empty() ? "" : " " + deck_.notes[0]));
         return assemble(deck_);
       }
 
@@ -117,8 +93,6 @@ namespace Nacre
       required(const std::string &parameter) const;
       void
       add_rigid_cells();
-      void
-      add_notes();
 
       MeshText       &text_;
       const OpenFile &open_;
@@ -154,13 +128,7 @@ namespace Nacre
 
       std::vector<RigidElement> rigid_;
       bool                      has_cells_ = false;
-      /** For the notes. */
-      CountedTypes          left_out_, lines_;
-      std::set<std::string> constraints_;
-      std::set<std::string> surfaces_left_out_;
-      std::size_t           n_in_system_    = 0;
-      std::size_t           n_cylindrical_  = 0;
-      std::size_t           n_with_offsets_ = 0;
+      DeckNotes                 notes_;
     };
 
 
@@ -187,19 +155,7 @@ namespace Nacre
         if (name == refused)
           text_.fail("found " + name +
                      "; write all nodes and elements into this file.");
-      for (const char *const constraint : {"*RIGIDBODY",
-                                           "*EQUATION",
-                                           "*MPC",
-                                           "*TIE",
-                                           "*COUPLING",
-                                           "*DISTRIBUTINGCOUPLING",
-                                           "*KINEMATICCOUPLING",
-                                           "*EMBEDDEDELEMENT",
-                                           "*SHELLTOSOLIDCOUPLING"})
-        if (name == constraint)
-          constraints_.insert(name);
-      if (name == "*SHELLSECTION" && keyword_.has("OFFSET"))
-        ++n_with_offsets_;
+      notes_.see_keyword(keyword_);
 
       if (name == "*NODE" || name == "*ELEMENT" || name == "*NSET" ||
           name == "*ELSET" || name == "*SURFACE")
@@ -305,7 +261,7 @@ namespace Nacre
       if ((!type.empty() && type != "ELEMENT" && type != "NODE") ||
           keyword_.has("COMBINE") || keyword_.has("CROP"))
         {
-          surfaces_left_out_.insert(name);
+          notes_.leave_out_surface(name);
           return;
         }
       surface_           = &part_->surfaces.item(name);
@@ -396,12 +352,12 @@ namespace Nacre
           const double angle  = point[1] * numbers::PI / 180.;
           point[0]            = radius * std::cos(angle);
           point[1]            = radius * std::sin(angle);
-          ++n_cylindrical_;
+          notes_.convert_node();
         }
       if (in_system_)
         {
           point = system_(point);
-          ++n_in_system_;
+          notes_.move_node();
         }
       const auto known = part_->mesh.find_node(number);
       if (!known)
@@ -448,7 +404,7 @@ namespace Nacre
         left_out = left_out || words[i].find('.') != std::string::npos;
       if (left_out)
         {
-          left_out_.add(type_);
+          notes_.leave_out_element(type_);
           part_->left_out.insert(number);
           return;
         }
@@ -464,7 +420,7 @@ namespace Nacre
         }
       part_->mesh.add_element(number, type_.kind, nodes, {});
       if (is_line)
-        lines_.add(type_);
+        notes_.add_line(type_);
       else
         has_cells_ = true;
       if (type_.is_plane)
@@ -555,7 +511,7 @@ namespace Nacre
       for (const RigidElement &element : rigid_)
         if (has_cells_)
           {
-            left_out_.add(element.type);
+            notes_.leave_out_element(element.type);
             element.part->left_out.insert(element.number);
           }
         else
@@ -564,48 +520,6 @@ namespace Nacre
                                          element.nodes,
                                          {});
       has_cells_ = has_cells_ || !rigid_.empty();
-    }
-
-
-    void
-    AbaqusReader::add_notes()
-    {
-      auto &notes = deck_.notes;
-      for (const auto &[name, type] : left_out_.types())
-        notes.push_back(describe(type.second, type.first) +
-                        (type.second == 1 ? " is" : " are") +
-                        " left out, with all that the deck says of " +
-                        (type.second == 1 ? "it." : "them."));
-      if (!has_cells_)
-        text_.fail("the file has no cells of a surface (shells, membranes or "
-                   "plane elements)." +
-                   (notes.empty() ? std::string() : " " + notes[0]));
-      for (const auto &[name, type] : lines_.types())
-        notes.push_back(
-          describe(type.second, type.first) + " can name edges; " +
-          (type.second == 1 ? "its" : "their") + " stiffness is left out.");
-      const auto list = [](const std::set<std::string> &names) {
-        std::string text;
-        for (const std::string &name : names)
-          text += (text.empty() ? "" : ", ") + name;
-        return text;
-      };
-      if (!constraints_.empty())
-        notes.push_back("The constraints of the deck are left out: " +
-                        list(constraints_) + ".");
-      if (!surfaces_left_out_.empty())
-        notes.push_back("Surfaces that aren't made of faces or nodes are left "
-                        "out: " +
-                        list(surfaces_left_out_) + ".");
-      if (n_with_offsets_ > 0)
-        notes.push_back("The OFFSET of *SHELL SECTION is left out: the nodes "
-                        "lie in the mid-surface.");
-      if (n_in_system_ > 0)
-        notes.push_back("*SYSTEM moves " + std::to_string(n_in_system_) +
-                        " nodes from a local system to x, y, z.");
-      if (n_cylindrical_ > 0)
-        notes.push_back(std::to_string(n_cylindrical_) +
-                        " nodes are given in cylindrical coordinates.");
     }
   } // namespace
 

@@ -27,7 +27,7 @@ namespace Nacre
   {
     const Element    &element = cells[cell];
     const std::string text    = "cell " + std::to_string(element.number);
-    return instances.empty() ?
+    return instances.empty() || instances[element.instance].empty() ?
              text :
              text + " of '" + instances[element.instance] + "'";
   }
