@@ -4,8 +4,10 @@
 #include <nacre/base/text.h>
 #include <nacre/problem/mesh_reader.h>
 
+#include <array>
 #include <cstdlib>
 #include <set>
+#include <utility>
 
 namespace Nacre
 {
@@ -187,27 +189,45 @@ namespace Nacre
                      " nodes and holds " + std::to_string(n_read) + ".");
       }
 
+      /**
+       * An element of an entity in several groups stands once for each, one
+       * after the other, with numbers of their own.
+       */
       void
       read_elements_2()
       {
         const auto n = text_.count("the number of elements");
+        // Type, entity and nodes of the element before, and its group.
+        std::vector<long long>   before;
+        std::vector<std::string> groups_before;
         for (std::size_t i = 0; i < n; ++i)
           {
-            const std::string what   = which("element", i, n);
-            const long long   number = text_.integer(what);
-            const ElementKind kind   = to_kind(text_.integer(what), number);
-            const auto        n_tags = text_.count(what);
+            const std::string        what   = which("element", i, n);
+            const long long          number = text_.integer(what);
+            const long long          type   = text_.integer(what);
+            const ElementKind        kind   = to_kind(type, number);
+            const auto               n_tags = text_.count(what);
             std::vector<std::string> groups;
+            long long                entity = 0;
             for (std::size_t t = 0; t < n_tags; ++t)
               {
                 const long long tag = text_.integer(what);
                 if (t == 0 && tag != 0)
                   groups = {group_name(dimension(kind), std::abs(tag))};
+                entity = t == 1 ? tag : entity;
               }
-            builder_.add_element(number,
-                                 kind,
-                                 read_element_nodes(kind, what),
-                                 groups);
+            const auto             nodes   = read_element_nodes(kind, what);
+            std::vector<long long> current = {type, entity};
+            current.insert(current.end(), nodes.begin(), nodes.end());
+            // The sign of a group is the direction of the curve.
+            if (kind.shape == ElementShape::line && nodes[0] > nodes[1])
+              std::swap(current[2], current[3]);
+            if (current == before && groups != groups_before)
+              builder_.add_to_last_element(groups);
+            else
+              builder_.add_element(number, kind, nodes, groups);
+            before        = std::move(current);
+            groups_before = groups;
           }
       }
 

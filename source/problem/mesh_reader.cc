@@ -329,6 +329,14 @@ namespace Nacre
   }
 
 
+  void
+  MeshBuilder::add_to_last_element(const std::vector<std::string> &sets)
+  {
+    auto &all = elements_.back().sets;
+    all.insert(all.end(), sets.begin(), sets.end());
+  }
+
+
   unsigned int
   MeshBuilder::node_index(const long long number, const std::string &user) const
   {

@@ -175,6 +175,10 @@ namespace Nacre
                 const std::vector<long long>   &nodes,
                 const std::vector<std::string> &sets);
 
+    /** Put the element that was added last into further sets. */
+    void
+    add_to_last_element(const std::vector<std::string> &sets);
+
     /** The mesh; nodes may be added after the elements that use them. */
     MeshFile
     finish();
