@@ -108,6 +108,7 @@ namespace Nacre
         sources_.pop_back();
         skip_white_space();
       }
+    source().last_line = source().line;
     return !has_line();
   }
 
@@ -129,6 +130,7 @@ namespace Nacre
     const std::string text(s.content.substr(s.position, end - s.position));
     const bool        is_last = end == std::string_view::npos;
     s.position                = is_last ? s.content.size() : end + 1;
+    s.last_line               = s.line;
     s.line += is_last ? 0 : 1;
     return Text::trim(text);
   }
@@ -225,7 +227,7 @@ namespace Nacre
   MeshText::where() const
   {
     return "The mesh file '" + sources_.back().path + "', line " +
-           std::to_string(sources_.back().line);
+           std::to_string(sources_.back().last_line);
   }
 
 

@@ -91,7 +91,7 @@ good("system_in_one_line", "*SYSTEM\n0., 0., 0., 0., 1., 0., -1., 0., 0.\n" +
 # the local axes x, y are y, z, the origin is (1, 2, 3)
 good("system_in_two_lines", DECK.replace("*NODE\n" + NODES, """\
 *SYSTEM
-1, 2, 3, 1, 4
+1, 2, 3, 1, 4, 3
 1, 2, 8
 *NODE
 1, -2, -3, -1
@@ -409,7 +409,7 @@ bad("obj", "# a comment\nv 0 0 0\nv 1 0 0\n", "OBJ", "meshio")
 bad("include_itself", "*INCLUDE, INPUT=a.txt\n" + DECK, "'a.txt', line 1",
     "'mesh.inp' includes itself",
     files={"a.txt": "*INCLUDE, INPUT=mesh.inp\n"}, ranks=(1, 2))
-bad("include_missing", "*INCLUDE, INPUT=b.txt\n" + DECK, "'mesh.inp', line 2",
+bad("include_missing", "*INCLUDE, INPUT=b.txt\n" + DECK, "'mesh.inp', line 1",
     "'b.txt' doesn't exist", ranks=(1, 2))
 bad("node_twice", DECK.replace("*ELEMENT", "*NODE\n4, 0, 1, 1e-9\n*ELEMENT"),
     "the node 4 stands twice", "different coordinates")

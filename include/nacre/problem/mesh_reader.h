@@ -103,6 +103,8 @@ namespace Nacre
       std::string      path;
       std::size_t      position = 0;
       unsigned int     line     = 1;
+      /** Where the line or the word that was taken last is. */
+      unsigned int last_line = 1;
     };
 
     Source &
