@@ -9,33 +9,60 @@ namespace Nacre
 {
   namespace
   {
+    /** Names that a load's expression may use. */
+    const std::string variables = "x,y,z,t";
+
     /** Call @p add(name, value, where) for each "name[, name]: value; ...". */
     template <typename Function>
     void
     for_each_entry(const std::string &text,
                    const std::string &parameter,
+                   const std::string &form,
                    const Function    &add)
     {
-      for (const auto &entry : Text::split(text, ';', parameter))
-        {
-          const auto colon = entry.find(':');
-          AssertThrow(colon != std::string::npos,
-                      ExcMessage(parameter + ": '" + entry +
-                                 "' has no ':' between the place and the "
-                                 "load."));
-          AssertThrow(!Text::trim(entry.substr(0, colon)).empty(),
-                      ExcMessage(parameter + ": '" + entry +
-                                 "' names no place before ':'."));
-          for (const auto &place :
-               Text::split(entry.substr(0, colon), ',', parameter))
-            add(place,
-                Text::trim(entry.substr(colon + 1)),
-                parameter + ", '" + place + "'");
-        }
+      for (const auto &entry : Text::entries(text, parameter, "place", form))
+        for (const auto &place : entry.names)
+          add(place,
+              entry.value,
+              parameter + ", '" + Text::unquoted(place) + "'");
     }
 
-    /** Names that a load's expression may use. */
-    const std::string variables = "x,y,z,t";
+    /**
+     * Loads of one kind from "edge[, edge]: value; ...", on every boundary id of
+     * the edges; @p Load is made of (value, where, constants, variables).
+     */
+    template <typename Load>
+    std::map<types::boundary_id, Load>
+    edge_loads(const std::string &text,
+               const std::string &parameter,
+               const std::string &form,
+               const Midsurface  &midsurface,
+               const Constants   &constants)
+    {
+      std::map<types::boundary_id, Load>        loads;
+      std::map<types::boundary_id, std::string> names;
+      for_each_entry(
+        text,
+        parameter,
+        form,
+        [&](const auto &edge, const auto &value, const auto &where) {
+          const std::string name = Text::unquoted(edge);
+          for (const auto id : midsurface.edge_ids(edge, where))
+            {
+              const auto [other, is_new] = names.emplace(id, name);
+              AssertThrow(is_new || other->second != name,
+                          ExcMessage(where + " stands twice."));
+              AssertThrow(is_new,
+                          ExcMessage(where + ": " +
+                                     midsurface.describe_side(id) +
+                                     " has a load already, as a part of the "
+                                     "edge '" +
+                                     other->second + "'; one is possible."));
+              loads.emplace(id, Load(value, where, constants, variables));
+            }
+        });
+      return loads;
+    }
   } // namespace
 
   Loads::Loads()
@@ -83,34 +110,20 @@ namespace Nacre
     pressure_ =
       Expression(pressure_text_, "Loads/Pressure", constants, variables);
 
-    const auto unique = [](const bool inserted, const std::string &where) {
-      AssertThrow(inserted, ExcMessage(where + " stands twice."));
-    };
-    edge_forces_.clear();
-    for_each_entry(
-      edge_forces_text_,
-      "Loads/Edge forces",
-      [&](const auto &edge, const auto &value, const auto &where) {
-        unique(edge_forces_
-                 .emplace(midsurface.edge_id(edge, where),
-                          VectorExpression(value, where, constants, variables))
-                 .second,
-               where);
-      });
-    edge_moments_.clear();
-    for_each_entry(
-      edge_moments_text_,
-      "Loads/Edge moments",
-      [&](const auto &edge, const auto &value, const auto &where) {
-        unique(edge_moments_
-                 .emplace(midsurface.edge_id(edge, where),
-                          Expression(value, where, constants, variables))
-                 .second,
-               where);
-      });
+    edge_forces_  = edge_loads<VectorExpression>(edge_forces_text_,
+                                                "Loads/Edge forces",
+                                                "u=1: 0, 0, 1",
+                                                midsurface,
+                                                constants);
+    edge_moments_ = edge_loads<Expression>(edge_moments_text_,
+                                           "Loads/Edge moments",
+                                           "u=1: 1",
+                                           midsurface,
+                                           constants);
     point_forces_.clear();
     for_each_entry(point_forces_text_,
                    "Loads/Point forces",
+                   "(0, 0, 0): 0, 0, 1",
                    [&](const auto &point,
                        const auto &value,
                        const auto &where) {

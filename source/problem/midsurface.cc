@@ -378,20 +378,21 @@ namespace Nacre
   }
 
 
-  types::boundary_id
-  Midsurface::edge_id(const std::string &name, const std::string &where) const
+  std::set<types::boundary_id>
+  Midsurface::edge_ids(const std::string &name, const std::string &where) const
   {
     Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
 
-    const std::string        wanted = without_spaces(name);
-    std::vector<std::string> known;
+    const std::string            wanted = without_spaces(name);
+    std::set<types::boundary_id> ids;
+    std::vector<std::string>     known;
     for (unsigned int e = 0; e < surface_->edges().size(); ++e)
       {
         const SurfaceDescription::Edge &edge = surface_->edges()[e];
         if (wanted == edge.name ||
             std::find(edge.aliases.begin(), edge.aliases.end(), wanted) !=
               edge.aliases.end())
-          return e;
+          ids.insert(e);
         known.push_back(edge.name);
         known.insert(known.end(), edge.aliases.begin(), edge.aliases.end());
       }
@@ -399,8 +400,16 @@ namespace Nacre
                 ExcMessage(where + ": unknown edge '" + wanted +
                            "': the surface '" + Text::trim(surface_name_) +
                            "' is closed and has no edges."));
-    AssertThrow(false,
+    AssertThrow(!ids.empty(),
                 ExcMessage(Text::unknown_name(where, "edge", wanted, known)));
-    return numbers::invalid_boundary_id;
+    return ids;
+  }
+
+
+  std::string
+  Midsurface::describe_side(const types::boundary_id id) const
+  {
+    const SurfaceDescription::Edge &edge = surface_->edges().at(id);
+    return edge.example.empty() ? "the edge '" + edge.name + "'" : edge.example;
   }
 } // namespace Nacre

@@ -87,6 +87,12 @@ namespace Nacre
     void
     prepare_regions(const Constants &constants);
 
+    void
+    add_region_item(Region            &region,
+                    const std::string &item,
+                    const std::string &where,
+                    const Constants   &known) const;
+
     /** The region's own expression named @p key, or nothing. */
     const Expression *
     own_value(const SectionPoint &point, const std::string &key) const;

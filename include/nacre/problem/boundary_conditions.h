@@ -53,6 +53,11 @@ namespace Nacre
      * conormal; null where the moment is prescribed (natural).
      */
     std::unique_ptr<Expression> rotation;
+    /** One of the edge's boundary ids, the same here for all of them. */
+    types::boundary_id edge = numbers::invalid_boundary_id;
+    /** The edge's name and the conditions as texts, for messages. */
+    std::string              name;
+    std::vector<std::string> items;
   };
 
   /** Components prescribed at the node at a point. */
@@ -91,6 +96,13 @@ namespace Nacre
     condition_names();
 
   private:
+    /** Conditions of the edge @p name on all of its boundary ids. */
+    void
+    add_edge(const Midsurface               &midsurface,
+             const std::string              &name,
+             const std::vector<std::string> &items,
+             const Constants                &constants);
+
     void
     add_edge_item(EdgeConditions    &conditions,
                   const std::string &item,

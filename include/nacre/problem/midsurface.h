@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,11 +83,17 @@ namespace Nacre
     edge_names() const;
 
     /**
-     * The boundary id of the edge @p name; an unknown name throws and lists
-     * the near ones. @p where is the parameter that mentions it.
+     * The boundary ids of the edge @p name, which may be in double quotes: a
+     * side of the boundary may have several names, and an id stands for the
+     * sides of one combination of names. An unknown name throws and lists the
+     * near ones. @p where is the parameter that mentions it.
      */
-    types::boundary_id
-    edge_id(const std::string &name, const std::string &where) const;
+    std::set<types::boundary_id>
+    edge_ids(const std::string &name, const std::string &where) const;
+
+    /** A side of the boundary with the boundary id @p id, for messages. */
+    std::string
+    describe_side(const types::boundary_id id) const;
 
     /** Names of the regions of cells; the first is empty: no region. */
     const std::vector<std::string> &

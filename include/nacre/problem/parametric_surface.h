@@ -86,6 +86,8 @@ namespace Nacre
       std::vector<std::string> aliases;
       /** Whether a chart point lies on this edge. */
       std::function<bool(const Point<3> &chart)> contains;
+      /** "the side between the nodes 1 and 2"; empty but for mesh files. */
+      std::string example = {};
     };
 
     /** A line by its end vertices, the smaller first. */
