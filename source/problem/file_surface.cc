@@ -81,6 +81,19 @@ namespace Nacre
       return vertex;
     }
 
+    /** A set of all cells counts least, else the last one counts. */
+    std::vector<std::string>
+    groups_of_cells(const MeshFile &mesh)
+    {
+      std::vector<std::string> groups(mesh.cells.size());
+      for (const bool all : {true, false})
+        for (const MeshFile::Set &set : mesh.cell_sets)
+          if ((set.members.size() == mesh.cells.size()) == all)
+            for (const unsigned int cell : set.members)
+              groups[cell] = set.name;
+      return groups;
+    }
+
     SurfaceDescription
     describe_surface(const MeshFile     &mesh,
                      const MeshBoundary &boundary,
@@ -88,6 +101,7 @@ namespace Nacre
     {
       SurfaceDescription surface;
       const auto         vertex = number_vertices(mesh, surface);
+      const auto         groups = groups_of_cells(mesh);
       for (unsigned int k = 0; k < mesh.cells.size(); ++k)
         {
           SurfaceDescription::Cell cell;
@@ -99,7 +113,7 @@ namespace Nacre
           if (flat)
             cell.chart.resize(n_corners);
 
-          const std::string &group = mesh.cells[k].group;
+          const std::string &group = groups[k];
           const auto         found =
             std::find(surface.regions.begin(), surface.regions.end(), group);
           cell.region = found - surface.regions.begin();

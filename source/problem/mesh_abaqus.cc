@@ -102,8 +102,7 @@ namespace Nacre
         if (!has_elements_)
           text_.fail("the file has no elements (*ELEMENT): it is truncated or "
                      "no mesh.");
-        apply_sets();
-        return builder_.finish();
+        return finish();
       }
 
     private:
@@ -217,7 +216,7 @@ namespace Nacre
             text_.to_integer(element_[i],
                              "a node of the element " + element_[0]));
         element_.clear();
-        builder_.add_element(number, kind_, nodes, "");
+        builder_.add_element(number, kind_, nodes, {});
         if (parameters_.count("ELSET") > 0)
           sets_of_elements_[parameters_["ELSET"]].insert(number);
         if (kind_.shape != ElementShape::line)
@@ -261,43 +260,36 @@ namespace Nacre
           }
       }
 
-      /**
-       * Sets of the keyword *ELSET count more than those in *ELEMENT, and
-       * those of all cells least.
-       */
-      void
-      apply_sets()
+      MeshFile
+      finish()
       {
-        std::map<long long, std::string> groups;
-        const auto holds_all = [&](const std::set<long long> &set) {
-          return std::includes(set.begin(),
-                               set.end(),
-                               cells_.begin(),
-                               cells_.end());
-        };
-        for (const auto &[name, set] : element_sets_)
-          if (holds_all(set))
-            for (const long long element : set)
-              groups[element] = name;
-        for (const auto &[name, set] : sets_of_elements_)
-          for (const long long element : set)
-            groups[element] = name;
-        std::map<long long, std::string> chosen;
-        for (const auto &[name, set] : element_sets_)
-          if (!holds_all(set))
-            for (const long long element : set)
+        MeshFile mesh          = builder_.finish();
+        mesh.names_ignore_case = true;
+        std::map<long long, unsigned int> cells, lines, nodes;
+        for (const auto &cell : mesh.cells)
+          cells.emplace(cell.number, cells.size());
+        for (const auto &line : mesh.lines)
+          lines.emplace(line.number, lines.size());
+        for (const long long number : mesh.node_numbers)
+          nodes.emplace(number, nodes.size());
+        const auto make = [](const Sets                              &sets,
+                             const std::map<long long, unsigned int> &indices) {
+          MeshSets result;
+          for (const auto &[name, set] : sets)
+            for (const long long number : set)
               {
-                const auto [entry, is_new] = chosen.emplace(element, name);
-                if (!is_new && entry->second != name)
-                  text_.fail("the element " + std::to_string(element) +
-                             " is in two sets, '" + entry->second + "' and '" +
-                             name + "'; one is possible.");
-                groups[element] = name;
+                const auto found = indices.find(number);
+                if (found != indices.end())
+                  result.add(name, found->second);
               }
-        for (const auto &[element, name] : groups)
-          builder_.set_group(element, name);
-        for (const auto &[name, set] : node_sets_)
-          builder_.add_node_set(name, {set.begin(), set.end()});
+          return result.finish();
+        };
+        for (auto &[name, set] : sets_of_elements_)
+          element_sets_.emplace(name, set);
+        mesh.cell_sets = make(element_sets_, cells);
+        mesh.line_sets = make(element_sets_, lines);
+        mesh.node_sets = make(node_sets_, nodes);
+        return mesh;
       }
 
       MeshText                          &text_;

@@ -100,6 +100,8 @@ namespace Nacre
 
       MeshFile                         &mesh_;
       std::map<Line, std::vector<Side>> sides_;
+      /** The side sets, taken before any cell is turned over. */
+      std::vector<std::pair<std::string, std::vector<Line>>> side_sets_;
     };
 
 
@@ -288,6 +290,18 @@ namespace Nacre
                                           numbers::invalid_unsigned_int;
             sides_[std::minmax(a, b)].push_back({k, a < b, middle});
           }
+      for (const MeshFile::SideSet &set : mesh_.side_sets)
+        {
+          side_sets_.push_back({set.name, {}});
+          for (const auto &[cell, side] : set.sides)
+            {
+              const auto &ends =
+                CoarseCell::sides(mesh_.n_corners(cell))[side].corners;
+              const auto &nodes = mesh_.cells[cell].nodes;
+              side_sets_.back().second.push_back(
+                std::minmax(nodes[ends[0]], nodes[ends[1]]));
+            }
+        }
       for (const auto &[line, sides] : sides_)
         {
           if (sides.size() > 2)
@@ -410,28 +424,32 @@ namespace Nacre
     {
       std::map<Line, std::string>                      names;
       std::map<std::string, const MeshFile::Element *> inside, outside;
-      for (const MeshFile::Element &element : mesh_.lines)
-        {
-          if (element.group.empty())
-            continue;
-          const Line  line     = side_of(element);
-          const bool  interior = sides_.at(line).size() == 2;
-          auto       &found    = interior ? inside : outside;
-          const auto &other    = interior ? outside : inside;
-          found[element.group] = &element;
-          const auto part      = other.find(element.group);
-          if (part != other.end())
-            fail("the group '" + element.group +
-                 "' is partly inside of the surface: the line " +
-                 std::to_string((interior ? element : *part->second).number) +
-                 " lies between two cells.");
-          if (interior)
-            continue;
-          const auto [entry, is_new] = names.emplace(line, element.group);
-          if (!is_new && entry->second != element.group)
-            fail(describe(line) + " is in two groups, '" + entry->second +
-                 "' and '" + element.group + "'; one is possible.");
-        }
+      for (const MeshFile::Set &set : mesh_.line_sets)
+        for (const unsigned int index : set.members)
+          {
+            const MeshFile::Element &element  = mesh_.lines[index];
+            const Line               line     = side_of(element);
+            const bool               interior = sides_.at(line).size() == 2;
+            auto                    &found    = interior ? inside : outside;
+            const auto              &other    = interior ? outside : inside;
+            found[set.name]                   = &element;
+            const auto part                   = other.find(set.name);
+            if (part != other.end())
+              fail("the group '" + set.name +
+                   "' is partly inside of the surface: the line " +
+                   std::to_string((interior ? element : *part->second).number) +
+                   " lies between two cells.");
+            if (interior)
+              continue;
+            const auto [entry, is_new] = names.emplace(line, set.name);
+            if (!is_new && entry->second != set.name)
+              fail(describe(line) + " is in two groups, '" + entry->second +
+                   "' and '" + set.name + "'; one is possible.");
+          }
+      for (const auto &[name, lines] : side_sets_)
+        for (const Line &line : lines)
+          if (sides_.at(line).size() == 1)
+            names.emplace(line, name);
       add_node_sets(names);
       return names;
     }
@@ -442,10 +460,10 @@ namespace Nacre
     MeshChecker::add_node_sets(std::map<Line, std::string> &names) const
     {
       std::map<Line, std::string> found;
-      for (const MeshFile::NodeSet &set : mesh_.node_sets)
+      for (const MeshFile::Set &set : mesh_.node_sets)
         {
-          const std::set<unsigned int> nodes(set.nodes.begin(),
-                                             set.nodes.end());
+          const std::set<unsigned int> nodes(set.members.begin(),
+                                             set.members.end());
           if (nodes.size() == mesh_.nodes.size())
             continue;
           for (const auto &[line, sides] : sides_)
@@ -481,13 +499,13 @@ namespace Nacre
         return static_cast<std::size_t>(found - boundary.names.begin());
       };
       // The order of the file first.
-      for (const MeshFile::Element &element : mesh_.lines)
-        if (!element.group.empty() && sides_.at(side_of(element)).size() == 1)
-          index_of(element.group);
+      for (const MeshFile::Set &set : mesh_.line_sets)
+        if (sides_.at(side_of(mesh_.lines[set.members[0]])).size() == 1)
+          index_of(set.name);
       std::set<std::string> in_use;
       for (const auto &[line, name] : names)
         in_use.insert(name);
-      for (const MeshFile::NodeSet &set : mesh_.node_sets)
+      for (const MeshFile::Set &set : mesh_.node_sets)
         if (in_use.count(set.name) > 0)
           index_of(set.name);
       for (const auto &[line, sides] : sides_)

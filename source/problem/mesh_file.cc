@@ -25,7 +25,11 @@ namespace Nacre
   std::string
   MeshFile::describe_cell(const unsigned int cell) const
   {
-    return "cell " + std::to_string(cells[cell].number);
+    const Element    &element = cells[cell];
+    const std::string text    = "cell " + std::to_string(element.number);
+    return instances.empty() ?
+             text :
+             text + " of '" + instances[element.instance] + "'";
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -212,6 +213,33 @@ namespace Nacre
   }
 
 
+  void
+  MeshSets::add(const std::string &name, const unsigned int member)
+  {
+    const auto [entry, is_new] = indices_.emplace(name, sets_.size());
+    if (is_new)
+      sets_.push_back({name, {}});
+    sets_[entry->second].members.push_back(member);
+  }
+
+
+  std::vector<MeshFile::Set>
+  MeshSets::finish()
+  {
+    std::vector<MeshFile::Set> result;
+    for (MeshFile::Set &set : sets_)
+      {
+        auto &members = set.members;
+        std::sort(members.begin(), members.end());
+        members.erase(std::unique(members.begin(), members.end()),
+                      members.end());
+        if (!members.empty())
+          result.push_back(std::move(set));
+      }
+    return result;
+  }
+
+
   MeshBuilder::MeshBuilder(const MeshText &text)
     : text_(text)
   {
@@ -235,47 +263,22 @@ namespace Nacre
 
 
   void
-  MeshBuilder::add_element(const long long               number,
-                           const ElementKind            &kind,
-                           const std::vector<long long> &nodes,
-                           const std::string            &group)
+  MeshBuilder::add_element(const long long                 number,
+                           const ElementKind              &kind,
+                           const std::vector<long long>   &nodes,
+                           const std::vector<std::string> &sets)
   {
     const std::string element = "the element " + std::to_string(number) + " ";
     if (!is_known(kind))
       text_.fail(element + refusal(kind) + ".");
-    if (kind.shape == ElementShape::point)
-      return;
     if (nodes.size() != kind.n_nodes)
       text_.fail(element + "has " + std::to_string(nodes.size()) +
                  " nodes; its type " + kind.name + " has " +
                  std::to_string(kind.n_nodes) + ".");
-    if (!element_indices_.emplace(number, elements_.size()).second)
+    if (kind.shape != ElementShape::point &&
+        !element_indices_.emplace(number, elements_.size()).second)
       text_.fail(element + "stands twice.");
-    elements_.push_back({number, kind, nodes, group});
-  }
-
-
-  void
-  MeshBuilder::add_node_set(const std::string            &name,
-                            const std::vector<long long> &nodes)
-  {
-    node_sets_.emplace_back(name, nodes);
-  }
-
-
-  void
-  MeshBuilder::set_group(const long long number, const std::string &group)
-  {
-    const auto found = element_indices_.find(number);
-    if (found == element_indices_.end())
-      text_.fail("the group '" + group + "' holds the element " +
-                 std::to_string(number) + ", which the file doesn't define.");
-    std::string &old = elements_[found->second].group;
-    if (!old.empty() && old != group)
-      text_.fail("the element " + std::to_string(number) +
-                 " is in two groups, '" + old + "' and '" + group +
-                 "'; one is possible.");
-    old = group;
+    elements_.push_back({number, kind, nodes, sets});
   }
 
 
@@ -294,28 +297,40 @@ namespace Nacre
   MeshFile
   MeshBuilder::finish()
   {
-    for (const RawElement &raw : elements_)
+    MeshSets cell_sets, line_sets, node_sets;
+    for (RawElement &raw : elements_)
       {
         MeshFile::Element element;
         element.number    = raw.number;
-        element.group     = raw.group;
         const auto &order = node_order(raw.kind.shape);
         for (unsigned int i = 0; i < raw.nodes.size(); ++i)
           element.nodes.push_back(
             node_index(raw.nodes[order[i]],
                        "the element " + std::to_string(raw.number)));
-        (raw.kind.shape == ElementShape::line ? mesh_.lines : mesh_.cells)
-          .push_back(std::move(element));
+        if (raw.kind.shape == ElementShape::point)
+          {
+            for (const std::string &name : raw.sets)
+              node_sets.add(name, element.nodes[0]);
+            continue;
+          }
+        const bool is_line = raw.kind.shape == ElementShape::line;
+        auto      &home    = is_line ? mesh_.lines : mesh_.cells;
+        for (const std::string &name : raw.sets)
+          (is_line ? line_sets : cell_sets).add(name, home.size());
+        home.push_back(std::move(element));
       }
-    for (const auto &[name, numbers] : node_sets_)
-      {
-        MeshFile::NodeSet set;
-        set.name = name;
-        for (const long long number : numbers)
-          set.nodes.push_back(
-            node_index(number, "the set of nodes '" + name + "'"));
-        mesh_.node_sets.push_back(std::move(set));
-      }
+    mesh_.cell_sets = cell_sets.finish();
+    mesh_.line_sets = line_sets.finish();
+    mesh_.node_sets = node_sets.finish();
     return std::move(mesh_);
+  }
+
+
+  std::vector<std::string>
+  group_names(const long long group)
+  {
+    if (group == 0)
+      return {};
+    return {std::to_string(group)};
   }
 } // namespace Nacre

@@ -7,14 +7,20 @@
 #include <nacre/base/types.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Nacre
 {
-  /** A surface mesh as a file describes it. */
+  /**
+   * A surface mesh as a file describes it. A cell, a line, a side and a node
+   * may be in any number of named sets; a set that no parameter names has no
+   * meaning. Sets are in the order of the file, names are unique among the
+   * sets of one kind, members are sorted and unique.
+   */
   struct MeshFile
   {
-    /** A cell, or a line of the boundary. */
+    /** A cell, or a line. */
     struct Element
     {
       /** The file's number of it. */
@@ -24,32 +30,61 @@ namespace Nacre
        * centre) or 9. Lines: the ends, and the middle if there is one.
        */
       std::vector<unsigned int> nodes;
-      /** The name of its group, or empty. */
-      std::string group;
+      /** Index into instances, if there are any. */
+      unsigned int instance = 0;
     };
 
-    /** A named set of nodes, which stands for the boundary lines between. */
-    struct NodeSet
+    /** A named set of cells, of lines or of nodes. */
+    struct Set
     {
       std::string               name;
-      std::vector<unsigned int> nodes;
+      std::vector<unsigned int> members;
+    };
+
+    /** A named set of sides of cells. */
+    struct SideSet
+    {
+      std::string name;
+      /**
+       * Cell and side. The file counts the sides of a cell counterclockwise,
+       * side s from its corner s to s + 1: that is CoarseCell::sides()[s], as
+       * long as nobody has turned the cell over.
+       */
+      std::vector<std::pair<unsigned int, unsigned int>> sides;
     };
 
     /** For messages. */
     std::string path;
 
     std::vector<Point<3>> nodes;
-    /** The file's numbers of the nodes. */
+    /** The file's numbers of the nodes; those of two instances may agree. */
     std::vector<long long> node_numbers;
     std::vector<Element>   cells;
     std::vector<Element>   lines;
-    std::vector<NodeSet>   node_sets;
+
+    /** Regions. */
+    std::vector<Set> cell_sets;
+    std::vector<Set> line_sets;
+    /** A set of nodes stands for the boundary lines between them. */
+    std::vector<Set>     node_sets;
+    std::vector<SideSet> side_sets;
+    /** Whether "ROOT" and "Root" are one name, as in Abaqus. */
+    bool names_ignore_case = false;
+
+    /** Names of the instances of parts, where there are several. */
+    std::vector<std::string> instances;
+
+    /**
+     * What the reader left out or changed, a sentence each: "3 elements of
+     * the type B31 (beams) are left out, with their stiffness."
+     */
+    std::vector<std::string> notes;
 
     /** "node 17 at (0, 0.5, 1)" */
     std::string
     describe_node(const unsigned int node) const;
 
-    /** "cell 17" */
+    /** "cell 17", or "cell 17 of 'Plate-1'" where there are instances. */
     std::string
     describe_cell(const unsigned int cell) const;
 

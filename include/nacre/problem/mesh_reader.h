@@ -102,6 +102,22 @@ namespace Nacre
     std::string name = {};
   };
 
+  /** Sets by name, in the order in which they were begun. */
+  class MeshSets
+  {
+  public:
+    void
+    add(const std::string &name, const unsigned int member);
+
+    /** All sets that have members, which are sorted and unique. */
+    std::vector<MeshFile::Set>
+    finish();
+
+  private:
+    std::vector<MeshFile::Set>                   sets_;
+    std::unordered_map<std::string, std::size_t> indices_;
+  };
+
   /** Collects what a reader finds, with the numbers of the file. */
   class MeshBuilder
   {
@@ -114,20 +130,15 @@ namespace Nacre
     /**
      * @param nodes numbers of the nodes: corners counterclockwise, then the
      *        middles of the sides from the first side on, then the centre.
-     *        Points are left out, solid cells refused.
+     *        Solid cells are refused.
+     * @param sets names of the sets that hold it. A point is no element of the
+     *        mesh: its node enters sets of nodes.
      */
     void
-    add_element(const long long               number,
-                const ElementKind            &kind,
-                const std::vector<long long> &nodes,
-                const std::string            &group);
-
-    void
-    add_node_set(const std::string &name, const std::vector<long long> &nodes);
-
-    /** Put the element @p number into a group. */
-    void
-    set_group(const long long number, const std::string &group);
+    add_element(const long long                 number,
+                const ElementKind              &kind,
+                const std::vector<long long>   &nodes,
+                const std::vector<std::string> &sets);
 
     /** The mesh; nodes may be added after the elements that use them. */
     MeshFile
@@ -139,10 +150,10 @@ namespace Nacre
 
     struct RawElement
     {
-      long long              number;
-      ElementKind            kind;
-      std::vector<long long> nodes;
-      std::string            group;
+      long long                number;
+      ElementKind              kind;
+      std::vector<long long>   nodes;
+      std::vector<std::string> sets;
     };
 
     const MeshText                             &text_;
@@ -150,8 +161,11 @@ namespace Nacre
     std::unordered_map<long long, unsigned int> node_indices_;
     std::vector<RawElement>                     elements_;
     std::unordered_map<long long, std::size_t>  element_indices_;
-    std::vector<std::pair<std::string, std::vector<long long>>> node_sets_;
   };
+
+  /** Names of the sets of an element in formats that number its group. */
+  std::vector<std::string>
+  group_names(const long long group);
 
   /** @name Readers of one format each */
   //@{
