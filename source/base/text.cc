@@ -15,14 +15,6 @@ namespace Nacre::Text
 
   namespace
   {
-    std::string
-    lower_case(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
-    }
-
     /**
      * Number of insertions, deletions, replacements and swaps of neighbours
      * that make @p b of @p a (optimal string alignment).
@@ -103,6 +95,15 @@ namespace Nacre::Text
     if (begin == std::string::npos)
       return "";
     return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+  }
+
+
+  std::string
+  lower_case(std::string text)
+  {
+    for (char &c : text)
+      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
   }
 
 
@@ -271,8 +272,12 @@ namespace Nacre::Text
       message += "?";
     if (candidates.empty())
       return message + " None is known here.";
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    const std::size_t n_shown = std::min<std::size_t>(candidates.size(), 40);
+    for (std::size_t i = 0; i < n_shown; ++i)
       message += (i == 0 ? " Known: " : ", ") + candidates[i];
+    if (n_shown < candidates.size())
+      message +=
+        " and " + std::to_string(candidates.size() - n_shown) + " others";
     return message + ".";
   }
 } // namespace Nacre::Text

@@ -141,24 +141,47 @@ namespace Nacre
   }
 
   void
-  LinearElasticSection::set_regions(const std::vector<std::string> &names)
+  LinearElasticSection::set_regions(const MeshRegions &mesh)
   {
-    region_of_id_.assign(names.size(), nullptr);
+    const auto plain = [&](const std::string &name) {
+      return mesh.names_ignore_case ? Text::lower_case(name) : name;
+    };
+    std::vector<std::string>                         known;
+    std::map<std::string, std::vector<unsigned int>> ids;
+    for (unsigned int id = 0; id < mesh.regions.size(); ++id)
+      for (const std::string &name : mesh.regions[id].names)
+        {
+          ids[plain(name)].push_back(id);
+          if (ids[plain(name)].size() == 1)
+            known.push_back(name);
+        }
+
+    region_of_id_.assign(mesh.regions.size(), nullptr);
+    std::vector<std::string> name_of_id(mesh.regions.size());
     for (const auto &[name, region] : regions_)
       {
-        const auto found = std::find(names.begin(), names.end(), name);
-        AssertThrow(names.size() > 1,
+        AssertThrow(!known.empty(),
                     ExcMessage(std::string(regions_parameter) +
                                ": the mid-surface has no region '" + name +
                                "': only mesh files with named groups of cells "
                                "have regions."));
-        AssertThrow(found != names.end() && !name.empty(),
-                    ExcMessage(
-                      Text::unknown_name(regions_parameter,
-                                         "region",
-                                         name,
-                                         {names.begin() + 1, names.end()})));
-        region_of_id_[found - names.begin()] = &region;
+        const auto found = ids.find(plain(name));
+        AssertThrow(
+          found != ids.end(),
+          ExcMessage(
+            Text::unknown_name(regions_parameter, "region", name, known)));
+        for (const unsigned int id : found->second)
+          {
+            AssertThrow(region_of_id_[id] == nullptr,
+                        ExcMessage(std::string(regions_parameter) + ": " +
+                                   mesh.regions[id].example +
+                                   " is in both of the regions '" +
+                                   name_of_id[id] + "' and '" + name +
+                                   "'; only one of them can give its "
+                                   "section."));
+            region_of_id_[id] = &region;
+            name_of_id[id]    = name;
+          }
       }
   }
 

@@ -33,6 +33,12 @@ namespace Nacre
               Text::trim(text.substr(colon + 1))};
     }
 
+    std::vector<Text::Entry>
+    entries_of_edges(const std::string &text)
+    {
+      return Text::entries(text, edges_parameter, "edge", "u=0: clamped");
+    }
+
     DisplacementCondition
     component(const std::string &key,
               const std::string &value,
@@ -178,14 +184,22 @@ namespace Nacre
       }
   }
 
+  std::vector<std::string>
+  BoundaryConditions::named_edges() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : entries_of_edges(edges_text_))
+      names.insert(names.end(), entry.names.begin(), entry.names.end());
+    return names;
+  }
+
   void
   BoundaryConditions::prepare(const Midsurface &midsurface,
                               const Constants  &constants)
   {
     edges_.clear();
     points_.clear();
-    for (const auto &entry :
-         Text::entries(edges_text_, edges_parameter, "edge", "u=0: clamped"))
+    for (const auto &entry : entries_of_edges(edges_text_))
       for (const auto &name : entry.names)
         add_edge(midsurface,
                  name,

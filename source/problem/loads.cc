@@ -12,15 +12,18 @@ namespace Nacre
     /** Names that a load's expression may use. */
     const std::string variables = "x,y,z,t";
 
+    const std::string forces_parameter  = "Loads/Edge forces";
+    const std::string moments_parameter = "Loads/Edge moments";
+
     /** Call @p add(name, value, where) for each "name[, name]: value; ...". */
     template <typename Function>
     void
     for_each_entry(const std::string &text,
                    const std::string &parameter,
-                   const std::string &form,
                    const Function    &add)
     {
-      for (const auto &entry : Text::entries(text, parameter, "place", form))
+      for (const auto &entry :
+           Text::entries(text, parameter, "place", "place: load"))
         for (const auto &place : entry.names)
           add(place,
               entry.value,
@@ -35,7 +38,6 @@ namespace Nacre
     std::map<types::boundary_id, Load>
     edge_loads(const std::string &text,
                const std::string &parameter,
-               const std::string &form,
                const Midsurface  &midsurface,
                const Constants   &constants)
     {
@@ -44,7 +46,6 @@ namespace Nacre
       for_each_entry(
         text,
         parameter,
-        form,
         [&](const auto &edge, const auto &value, const auto &where) {
           const std::string name = Text::unquoted(edge);
           for (const auto id : midsurface.edge_ids(edge, where))
@@ -98,6 +99,18 @@ namespace Nacre
                   "'(x, y, z): Fx, Fy, Fz; ...'. Units: length; force.");
   }
 
+  std::vector<std::string>
+  Loads::named_edges() const
+  {
+    std::vector<std::string> names;
+    const auto               add = [&](const auto &edge, const auto &...) {
+      names.push_back(edge);
+    };
+    for_each_entry(edge_forces_text_, forces_parameter, add);
+    for_each_entry(edge_moments_text_, moments_parameter, add);
+    return names;
+  }
+
   void
   Loads::prepare(const Midsurface &midsurface, const Constants &constants)
   {
@@ -111,19 +124,16 @@ namespace Nacre
       Expression(pressure_text_, "Loads/Pressure", constants, variables);
 
     edge_forces_  = edge_loads<VectorExpression>(edge_forces_text_,
-                                                "Loads/Edge forces",
-                                                "u=1: 0, 0, 1",
+                                                forces_parameter,
                                                 midsurface,
                                                 constants);
     edge_moments_ = edge_loads<Expression>(edge_moments_text_,
-                                           "Loads/Edge moments",
-                                           "u=1: 1",
+                                           moments_parameter,
                                            midsurface,
                                            constants);
     point_forces_.clear();
     for_each_entry(point_forces_text_,
                    "Loads/Point forces",
-                   "(0, 0, 0): 0, 0, 1",
                    [&](const auto &point,
                        const auto &value,
                        const auto &where) {

@@ -15,6 +15,9 @@ namespace Nacre::Text
   std::string
   trim(const std::string &text);
 
+  std::string
+  lower_case(std::string text);
+
   /**
    * Where @p what stands outside of parentheses and of "double quotes" for the
    * first time from @p begin on, itself outside of them; or npos.

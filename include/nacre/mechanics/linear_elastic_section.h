@@ -64,7 +64,7 @@ namespace Nacre
     named_constants() const override;
 
     void
-    set_regions(const std::vector<std::string> &names) override;
+    set_regions(const MeshRegions &mesh) override;
 
     double
     thickness(const SectionPoint &point) const override;

@@ -81,6 +81,10 @@ namespace Nacre
     void
     prepare(const Midsurface &midsurface, const Constants &constants);
 
+    /** The edges that have conditions, as the parameter names them. */
+    std::vector<std::string>
+    named_edges() const;
+
     /** Evaluate all values at @p time and multiply them by @p factor. */
     void
     set_time(const double time, const double factor);
