@@ -121,37 +121,6 @@ namespace Nacre
    */
   MeshFile
   read_mesh(const InputFile &file, const OpenFile &open);
-
-  /** The boundary of a mesh that has passed check_mesh(). */
-  struct MeshBoundary
-  {
-    struct Line
-    {
-      /** Indices of the end nodes. */
-      unsigned int first;
-      unsigned int second;
-      /** Index into names. */
-      unsigned int edge;
-    };
-
-    /** Names of the groups in the order of the file; then "boundary". */
-    std::vector<std::string> names;
-    std::vector<Line>        lines;
-  };
-
-  /**
-   * Check a mesh and turn cells over until all have one orientation, that of
-   * the greater part of the cells; find its boundary.
-   *
-   * Throws an ExcMessage with the numbers of the cells or nodes for: no cells,
-   * cells of several kinds, a node twice in a cell or in no cell, two nodes at
-   * one place, a cell that stands twice, degenerate or folded cells, middles far off their sides,
-   * sides shared by three cells, sides whose middles differ, one-sided
-   * surfaces, unconnected parts, lines that aren't on the boundary or in two
-   * groups.
-   */
-  MeshBoundary
-  check_mesh(MeshFile &mesh);
 } // namespace Nacre
 
 #endif
