@@ -65,7 +65,8 @@ namespace Nacre
     add_parameter(
       "Edges",
       edges_text_,
-      "Conditions on named edges: 'edge[, edge]: item, item; ...'. Items: "
+      "Conditions on named edges: 'edge[, edge]: item, item; ...'; names with "
+      "commas, colons or semicolons in double quotes. Items: "
       "free; fixed (x = y = z = 0); clamped (fixed, rotation 0); symmetry (no "
       "displacement across the plane that holds the edge, rotation 0); "
       "diaphragm (no displacement within the plane that holds the edge); "

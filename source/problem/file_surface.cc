@@ -149,10 +149,13 @@ namespace Nacre
                               });
     leave_out_unused_nodes(mesh);
     merge_nodes(mesh, merge_distance(input));
-    check_places(mesh, allows_slits(input));
+    const bool slits = allows_slits(input);
+    check_places(mesh, slits);
     check_cells(mesh);
     const MeshSides sides = find_sides(mesh);
-    MeshNames       names = find_names(mesh, sides);
+    if (!slits)
+      check_hanging_nodes(mesh, sides);
+    MeshNames names = find_names(mesh, sides);
     orient_cells(mesh, sides);
     SurfaceDescription surface =
       describe_surface(mesh, std::move(names), curvature == "flat");

@@ -9,6 +9,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -120,6 +121,45 @@ namespace Nacre
       return text.str();
     }
 
+    /** A straight piece of a side of the boundary. */
+    struct Piece
+    {
+      unsigned int begin;
+      unsigned int end;
+      MeshLine     line;
+    };
+
+    /** Sides of the boundary, in halves if they have a middle. */
+    std::vector<Piece>
+    boundary_pieces(const MeshSides &sides)
+    {
+      std::vector<Piece> pieces;
+      for (const auto &[line, cells] : sides)
+        {
+          if (cells.size() != 1)
+            continue;
+          const unsigned int middle = cells[0].middle;
+          if (middle == numbers::invalid_unsigned_int)
+            pieces.push_back({line.first, line.second, line});
+          else
+            {
+              pieces.push_back({line.first, middle, line});
+              pieces.push_back({middle, line.second, line});
+            }
+        }
+      return pieces;
+    }
+
+    /** From @p x to the straight line between two points. */
+    double
+    distance_to_piece(const Point<3> &x, const Point<3> &a, const Point<3> &b)
+    {
+      const Tensor<1, 3> along = b - a;
+      const double       t =
+        std::clamp((x - a) * along / along.norm_square(), 0., 1.);
+      return x.distance(a + t * along);
+    }
+
     /** Put @p into[node] in the place of each node of the mesh. */
     void
     renumber(MeshFile &mesh, const std::vector<unsigned int> &into)
@@ -196,8 +236,8 @@ namespace Nacre
     for (const auto &[x, node] : tree.nodes())
       for (const unsigned int other : tree.earlier(node, distance))
         {
-          const auto [low, high] = std::minmax(root(node), root(other));
-          into[high]             = low;
+          const unsigned int first = root(node), second = root(other);
+          into[std::max(first, second)] = std::min(first, second);
         }
     unsigned int n_merged = 0, first = 0;
     for (unsigned int node = into.size(); node-- > 0;)
@@ -266,5 +306,48 @@ namespace Nacre
         std::to_string(n_pairs) +
         (n_pairs == 1 ? " pair of nodes is" : " pairs of nodes are") +
         " taken as the lips of slits; the first: " + first + ".");
+  }
+
+
+  void
+  check_hanging_nodes(const MeshFile &mesh, const MeshSides &sides)
+  {
+    namespace index                     = boost::geometry::index;
+    const std::vector<Piece>  pieces    = boundary_pieces(sides);
+    const std::vector<double> sizes     = sizes_of_sides(mesh);
+    const auto                tolerance = [&](const Piece &piece) {
+      return seam_tolerance * std::min(sizes[piece.begin], sizes[piece.end]);
+    };
+    std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
+    for (unsigned int i = 0; i < pieces.size(); ++i)
+      {
+        BoundingBox<3> box(std::vector<Point<3>>{mesh.nodes[pieces[i].begin],
+                                                 mesh.nodes[pieces[i].end]});
+        box.extend(tolerance(pieces[i]));
+        boxes.emplace_back(box, i);
+      }
+    const auto tree = pack_rtree(boxes);
+    for (const Piece &own : pieces)
+      for (const unsigned int node : {own.begin, own.end})
+        for (const auto &[box, i] :
+             tree |
+               index::adaptors::queried(index::intersects(mesh.nodes[node])))
+          {
+            const Piece       &piece = pieces[i];
+            const unsigned int cell  = sides.at(piece.line)[0].cell;
+            const auto        &nodes = mesh.cells[cell].nodes;
+            if (std::find(nodes.begin(), nodes.end(), node) == nodes.end() &&
+                distance_to_piece(mesh.nodes[node],
+                                  mesh.nodes[piece.begin],
+                                  mesh.nodes[piece.end]) <=
+                  std::min(tolerance(piece), tolerance(own)))
+              fail(mesh,
+                   "the " + mesh.describe_node(node) + " lies on " +
+                     describe(mesh, piece.line) + " of " +
+                     mesh.describe_cell(cell) +
+                     ", which hasn't got it; the surface gapes there. Let "
+                     "the cells on both sides have the same nodes, or choose "
+                     "Mid-surface/file/Slits = allowed if a slit is meant.");
+          }
   }
 } // namespace Nacre

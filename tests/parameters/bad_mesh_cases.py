@@ -102,8 +102,6 @@ wrong("nodes_at_one_place", ["the nodes 5 and 8 lie at the same place"],
       (LEFT, CELLS[0], (12, QUAD, 2, "2 3 6 8")))
 wrong("node_unknown", ["the element 12", "the node 99", "doesn't define"],
       elements=(LEFT, CELLS[0], (12, QUAD, 2, "2 3 99 5")))
-wrong("node_dangling", ["node 17 at (5, 5, 0)", "belongs to no cell"],
-      NODES | {17: "5 5 0"})
 
 # --- Cells -----------------------------------------------------------------
 wrong("no_cells", ["no cells"], elements=(LEFT,))
@@ -179,8 +177,10 @@ wrong("line_is_no_side", ["the line 8", "nodes 1 and 5", "no side"],
 wrong("group_partly_inside", ["the group 'left'", "the line 8",
                               "between two cells"],
       elements=(LEFT, (8, LINE, 1, "2 5"), *CELLS))
-wrong("line_in_two_groups", ["between the nodes 1 and 4", "'left'", "'right'"],
-      elements=(LEFT, (8, LINE, 3, "1 4"), *CELLS))
+wrong("line_in_two_groups",
+      ["between the nodes 1 and 4", "'left'", "'right'", "other conditions"],
+      elements=(LEFT, (8, LINE, 3, "1 4"), *CELLS),
+      settings={"Boundary conditions/Edges": "left: clamped; right: free"})
 case("group_inside_is_no_edge",
      ["unknown edge 'right'", "Known: left, boundary"],
      msh(elements=(LEFT, (8, LINE, 3, "2 5"), *CELLS)),

@@ -15,9 +15,10 @@
 
 /**
  * From a mesh as the file has it to one that a surface can be made of. The
- * order: merge_nodes(), leave_out_unused_nodes(), check_cells(),
- * check_places(), find_sides(), find_names(), orient_cells(). All throw an
- * ExcMessage with the file and the numbers of the nodes or cells.
+ * order: leave_out_unused_nodes(), merge_nodes(), check_places(),
+ * check_cells(), find_sides(), check_hanging_nodes(), find_names(),
+ * orient_cells(). All throw an ExcMessage with the file and the numbers of the
+ * nodes or cells.
  */
 namespace Nacre
 {
@@ -65,6 +66,13 @@ namespace Nacre
    */
   void
   check_places(MeshFile &mesh, const bool slits);
+
+  /**
+   * Throws where a node lies on a side of the boundary that isn't its own: a
+   * seam of two parts that were meshed differently.
+   */
+  void
+  check_hanging_nodes(const MeshFile &mesh, const MeshSides &sides);
   //@}
 
   /** @name Cells */
