@@ -35,6 +35,8 @@ namespace Nacre::Abaqus
         {"ELBOW", "pipes"},
         {"FRAME", "frames"},
         {"SAX", "axisymmetric lines"},
+        {"DSAX", "axisymmetric lines"},
+        {"DC1D", "heat links"},
         {"MAX", "axisymmetric lines"},
         {"R2D", "rigid lines"},
         {"RAX", "rigid lines"},
@@ -143,6 +145,11 @@ namespace Nacre::Abaqus
                   family.plural,
                   false};
         }
+    if (name == "D")
+      return {ElementUse::left_out,
+              {ElementShape::other, 0, name},
+              "network elements",
+              false};
     for (const Family &family : families_left_out())
       if (begins_with(name, family.begin))
         return {ElementUse::left_out,

@@ -6,6 +6,7 @@
 #include <nacre/problem/abaqus_notes.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -14,6 +15,13 @@ namespace Nacre
   namespace
   {
     using namespace Abaqus;
+
+    bool
+    begins_with_letter(const std::string &line)
+    {
+      return !line.empty() &&
+             std::isalpha(static_cast<unsigned char>(line[0])) != 0;
+    }
 
     /** An Abaqus input file: keyword lines, "*NODE", and lines of data. */
     class AbaqusReader
@@ -135,8 +143,12 @@ namespace Nacre
     void
     AbaqusReader::begin_keyword(std::string line)
     {
-      while (!line.empty() && line.back() == ',')
-        line += text_.line("the rest of a keyword");
+      // It goes on after a comma, unless data follow.
+      while (line.back() == ',' && begins_with_letter(text_.peek_line()))
+        {
+          text_.at_end();
+          line += text_.line("the rest of a keyword");
+        }
       const Keyword keyword(line);
       if (keyword.name == "*INCLUDE")
         {
@@ -365,7 +377,7 @@ namespace Nacre
       else if (*known != point)
         text_.fail("the node " + std::to_string(number) +
                    " stands twice, with different coordinates.");
-      if (keyword_.has("NSET"))
+      if (!keyword_.value("NSET").empty())
         part_->node_sets.item(keyword_.value("NSET")).add(number);
     }
 
@@ -394,7 +406,7 @@ namespace Nacre
       element_.clear();
       const long long number =
         text_.to_integer(words[0], "an element's number");
-      if (keyword_.has("ELSET"))
+      if (!keyword_.value("ELSET").empty())
         part_->element_sets.item(keyword_.value("ELSET")).add(number);
 
       const bool is_line = type_.use == ElementUse::line;

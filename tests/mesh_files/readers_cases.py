@@ -65,6 +65,7 @@ good("any_case", """\
 OUTER
 """, edges="ROOT")
 good("keyword_goes_on", DECK.replace("*ELEMENT, TYPE", "*ELEMENT,\n TYPE"))
+good("comma_behind_a_keyword", DECK.replace("NSET=Root", "NSET=Root,"))
 
 # --- Nodes -----------------------------------------------------------------
 good("blank_coordinates", DECK.replace(NODES, """\
