@@ -41,18 +41,19 @@ namespace Nacre
       static const std::vector<std::pair<std::string, Format>> formats = {
         {"\x89HDF",
          {"an HDF5 file (as Exodus, MED, CGNS, XDMF)",
-          "meshio convert FILE mesh.msh --output-format gmsh22"}},
+          "meshio convert FILE mesh.msh --output-format gmsh22 --ascii"}},
         {"CDF",
          {"a NetCDF file (as Exodus)",
-          "meshio convert FILE mesh.msh --output-format gmsh22"}},
+          "meshio convert FILE mesh.msh --output-format gmsh22 --ascii"}},
         {"<?xml",
          {"XML (as VTK's .vtu)",
-          "meshio convert FILE mesh.vtk --output-format vtk42-ascii"}},
+          "meshio convert FILE mesh.vtk --output-format vtk42 --ascii"}},
         {"<VTKFile",
          {"VTK's XML (.vtu)",
-          "meshio convert FILE mesh.vtk --output-format vtk42-ascii"}},
+          "meshio convert FILE mesh.vtk --output-format vtk42 --ascii"}},
         {"ply",
-         {"a PLY file", "meshio convert FILE mesh.msh --output-format gmsh22"}},
+         {"a PLY file",
+          "meshio convert FILE mesh.msh --output-format gmsh22 --ascii"}},
         {"solid",
          {"an STL file, whose triangles aren't connected",
           "gmsh FILE -save -format msh2 -o mesh.msh"}},
@@ -71,7 +72,7 @@ namespace Nacre
     {
       static const Format obj = {"a Wavefront OBJ file",
                                  "meshio convert FILE mesh.msh "
-                                 "--output-format gmsh22"};
+                                 "--output-format gmsh22 --ascii"};
       static const Format geo = {"a gmsh geometry (.geo), not a mesh",
                                  "gmsh FILE -2 -format msh2 -o mesh.msh"};
       std::istringstream  in(content);
