@@ -29,8 +29,8 @@ namespace Nacre
     const Format nastran = {"Nastran bulk data",
                             "gmsh FILE -save -format msh2 -o mesh.msh"};
     const Format ls_dyna = {"an LS-DYNA keyword file",
-                            "save it as Abaqus .inp or gmsh .msh with the "
-                            "preprocessor, or convert it with LS-PrePost"};
+                            "write it as Abaqus .inp or gmsh .msh with the "
+                            "preprocessor that made it"};
     const Format gmsh_1  = {"gmsh's format 1 ($NOD)",
                             "gmsh FILE -save -format msh2 -o mesh.msh"};
 
