@@ -44,7 +44,8 @@ namespace Nacre
       AssertThrow(!in.bad(),
                   ExcMessage(where + ": reading the file '" + path.string() +
                              "' failed."));
-      return {path.lexically_normal().string(), content.str()};
+      const std::string found = path.lexically_normal().string();
+      return {found, without_byte_order_mark(content.str(), found)};
     }
   } // namespace
 
@@ -62,5 +63,25 @@ namespace Nacre
     file.path    = Utilities::MPI::broadcast(communicator, file.path);
     file.content = Utilities::MPI::broadcast(communicator, file.content);
     return file;
+  }
+
+
+  std::string
+  without_byte_order_mark(const std::string &content, const std::string &file)
+  {
+    const std::string begin = content.substr(0, 2);
+    // Without a mark, each second byte of English text is zero.
+    const bool is_utf_16 =
+      begin == "\xFF\xFE" || begin == "\xFE\xFF" ||
+      (begin.size() == 2 && (begin[0] == '\0') != (begin[1] == '\0'));
+    AssertThrow(!is_utf_16,
+                ExcMessage(
+                  "The file '" + file +
+                  "' is UTF-16 text; save it as UTF-8 (editor: Save "
+                  "as, encoding UTF-8; or iconv -f UTF-16 -t UTF-8)."));
+    const std::string mark = "\xEF\xBB\xBF";
+    return content.compare(0, mark.size(), mark) == 0 ?
+             content.substr(mark.size()) :
+             content;
   }
 } // namespace Nacre

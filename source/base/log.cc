@@ -30,13 +30,25 @@ namespace Nacre
   }
 
   void
-  Log::warning(const std::string &text)
+  Log::tell_once(const std::string &line)
   {
-    if (!warnings_.insert(text).second)
+    if (!told_.insert(line).second)
       return;
     // Keep the order of the two streams on a terminal.
     std::cout << std::flush;
-    errors_ << "nacre: warning: " << text << std::endl;
+    errors_ << line << std::endl;
+  }
+
+  void
+  Log::warning(const std::string &text)
+  {
+    tell_once("nacre: warning: " + text);
+  }
+
+  void
+  Log::note(const std::string &text)
+  {
+    tell_once("nacre: note: " + text);
   }
 
   bool

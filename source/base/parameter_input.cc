@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/input_file.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
 #include <nacre/base/parameter_input.h>
@@ -331,7 +332,7 @@ namespace Nacre
                              "' can't be read."));
       std::ostringstream content;
       content << in.rdbuf();
-      return content.str();
+      return without_byte_order_mark(content.str(), file);
     }
 
     /** The section in which the parameter @p full_name is, and its name. */

@@ -15,14 +15,6 @@ namespace Nacre::Text
 
   namespace
   {
-    std::string
-    lower_case(std::string text)
-    {
-      for (char &c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      return text;
-    }
-
     /**
      * Number of insertions, deletions, replacements and swaps of neighbours
      * that make @p b of @p a (optimal string alignment).
@@ -55,6 +47,43 @@ namespace Nacre::Text
       return std::min(a.size(), b.size()) >= 3 &&
              (a.find(b) != std::string::npos || b.find(a) != std::string::npos);
     }
+    /** Where a text is, read from its begin: in parentheses, in quotes. */
+    class Place
+    {
+    public:
+      /** Take the next letter. */
+      void
+      read(const char c)
+      {
+        if (c == '"')
+          quoted_ = !quoted_;
+        else if (!quoted_)
+          depth_ += (c == '(') - (c == ')');
+      }
+
+      bool
+      is_outside() const
+      {
+        return depth_ == 0 && !quoted_;
+      }
+
+      bool
+      is_quoted() const
+      {
+        return quoted_;
+      }
+
+      /** Parentheses open, less those closed. */
+      int
+      depth() const
+      {
+        return depth_;
+      }
+
+    private:
+      int  depth_  = 0;
+      bool quoted_ = false;
+    };
   } // namespace
 
 
@@ -69,21 +98,66 @@ namespace Nacre::Text
   }
 
 
+  std::string
+  lower_case(std::string text)
+  {
+    for (char &c : text)
+      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  }
+
+
+  std::size_t
+  find(const std::string &text,
+       const std::string &what,
+       const std::size_t  begin)
+  {
+    Place place;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        if (i >= begin && place.is_outside() &&
+            text.compare(i, what.size(), what) == 0)
+          return i;
+        place.read(text[i]);
+      }
+    return std::string::npos;
+  }
+
+
+  std::string
+  unquoted(const std::string &text)
+  {
+    const std::string name = trim(text);
+    if (name.size() < 2 || name.front() != '"' || name.back() != '"')
+      return name;
+    std::string result;
+    for (std::size_t i = 1; i + 1 < name.size(); ++i)
+      {
+        result += name[i];
+        // A doubled quote stands for one.
+        if (name[i] == '"' && name[i + 1] == '"')
+          ++i;
+      }
+    return result;
+  }
+
+
   std::vector<std::string>
   split(const std::string &text, const char separator, const std::string &where)
   {
     std::vector<std::string> parts;
     if (trim(text).empty())
       return parts;
-    int         depth = 0;
+    Place       place;
     std::string part;
     for (const char c : text)
       {
-        depth += (c == '(') - (c == ')');
-        AssertThrow(depth >= 0,
+        const bool separates = (c == separator && place.is_outside());
+        place.read(c);
+        AssertThrow(place.depth() >= 0,
                     ExcMessage(where + ": '" + trim(text) +
                                "' has a ')' without '('."));
-        if (c == separator && depth == 0)
+        if (separates)
           {
             parts.push_back(trim(part));
             part.clear();
@@ -91,7 +165,10 @@ namespace Nacre::Text
         else
           part += c;
       }
-    AssertThrow(depth == 0,
+    AssertThrow(!place.is_quoted(),
+                ExcMessage(where + ": '" + trim(text) +
+                           "' has a quote '\"' without a second one."));
+    AssertThrow(place.depth() == 0,
                 ExcMessage(where + ": '" + trim(text) +
                            "' has a '(' without ')'."));
     parts.push_back(trim(part));
@@ -105,16 +182,37 @@ namespace Nacre::Text
   }
 
 
+  std::vector<Entry>
+  entries(const std::string &text,
+          const std::string &where,
+          const std::string &what,
+          const std::string &form)
+  {
+    std::vector<Entry> result;
+    for (const std::string &part : split(text, ';', where))
+      {
+        const auto colon = find(part, ":");
+        AssertThrow(colon != std::string::npos,
+                    ExcMessage(where + ": '" + part + "' has no ':'; write '" +
+                               form + "'."));
+        const std::string names = trim(part.substr(0, colon));
+        AssertThrow(!names.empty(),
+                    ExcMessage(where + ": '" + part + "' names no " + what +
+                               "; write '" + form + "'."));
+        result.push_back(
+          {split(names, ',', where), trim(part.substr(colon + 1)), part});
+      }
+    return result;
+  }
+
+
   std::pair<std::string, std::string>
   key_and_value(const std::string &text)
   {
-    int depth = 0;
-    for (std::size_t i = 0; i < text.size(); ++i)
+    for (std::size_t i = find(text, "="); i != std::string::npos;
+         i             = find(text, "=", i + 1))
       {
-        depth += (text[i] == '(') - (text[i] == ')');
-        if (text[i] != '=' || depth != 0)
-          continue;
-        if (i + 1 < text.size() && text[i + 1] == '=')
+                    if (i + 1 < text.size() && text[i + 1] == '=')
           ++i; // ==
         else if (i == 0 ||
                  std::string("<>!").find(text[i - 1]) == std::string::npos)
@@ -174,8 +272,12 @@ namespace Nacre::Text
       message += "?";
     if (candidates.empty())
       return message + " None is known here.";
-    for (std::size_t i = 0; i < candidates.size(); ++i)
+    const std::size_t n_shown = std::min<std::size_t>(candidates.size(), 40);
+    for (std::size_t i = 0; i < n_shown; ++i)
       message += (i == 0 ? " Known: " : ", ") + candidates[i];
+    if (n_shown < candidates.size())
+      message +=
+        " and " + std::to_string(candidates.size() - n_shown) + " others";
     return message + ".";
   }
 } // namespace Nacre::Text

@@ -107,9 +107,11 @@ namespace Nacre
       if (cell->is_locally_owned() && cell->at_boundary())
         for (const auto face : cell->face_indices())
           {
-            if (!cell->at_boundary(face) ||
-                boundary_conditions_.edges().count(
-                  cell->face(face)->boundary_id()) == 0)
+            if (!cell->at_boundary(face))
+              continue;
+            const auto edge = boundary_conditions_.edges().find(
+              cell->face(face)->boundary_id());
+            if (edge == boundary_conditions_.edges().end())
               continue;
             fe_values.reinit(
               static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell));
@@ -122,7 +124,7 @@ namespace Nacre
                                   face);
                 for (unsigned int c = 0; c < spacedim; ++c)
                   mine.push_back(dofs[node_dofs[spacedim * a + c]]);
-                mine.push_back(cell->face(face)->boundary_id());
+                mine.push_back(edge->second.edge);
                 for (const auto &v :
                      {Vector3(fe_values.quadrature_point(a)), normal, conormal})
                   mine.insert(mine.end(), v.begin_raw(), v.end_raw());
@@ -279,6 +281,9 @@ namespace Nacre
     const auto nodes = average(raw_nodes);
     for (const auto &[id, conditions] : boundary_conditions_.edges())
       {
+        // Once for all boundary ids of an edge.
+        if (id != conditions.edge)
+          continue;
         Vector3 plane;
         for (const auto &condition : conditions.displacements)
           if (condition.direction == Direction::plane_normal ||
@@ -318,7 +323,7 @@ namespace Nacre
     const auto edge = boundary_conditions_.edges().find(id);
     if (edge == boundary_conditions_.edges().end())
       return force;
-    const auto plane = planes_.find(id);
+    const auto plane = planes_.find(edge->second.edge);
     EdgeNode   node{};
     node.normal   = normal;
     node.conormal = conormal;

@@ -101,60 +101,87 @@ namespace Nacre
     Constants known = constants;
     for (const auto &[name, value] : named_constants())
       known[name] = value;
+    for (const auto &entry : Text::entries(regions_text_,
+                                           regions_parameter,
+                                           "region",
+                                           "name: h = 0.1"))
+      for (const auto &quoted : entry.names)
+        {
+          const std::string name = Text::unquoted(quoted);
+          const std::string where =
+            regions_parameter + (", region '" + name) + "'";
+          const auto [place, is_new] = regions_.try_emplace(name);
+          AssertThrow(is_new, ExcMessage(where + " stands twice."));
+          for (const auto &item : Text::split(entry.value, ',', where))
+            add_region_item(place->second, item, where, known);
+        }
+  }
+
+  void
+  LinearElasticSection::add_region_item(Region            &region,
+                                        const std::string &item,
+                                        const std::string &where,
+                                        const Constants   &known) const
+  {
     const std::vector<std::string> keys = {"h", "E", "density", "nu"};
 
-    for (const auto &entry : Text::split(regions_text_, ';', regions_parameter))
+    const auto [key, value] = Text::key_and_value(item);
+    AssertThrow(std::find(keys.begin(), keys.end(), key) != keys.end(),
+                ExcMessage(Text::unknown_name(where, "value", key, keys)));
+    const std::string what = where + ", " + key;
+    if (key == "nu")
+      region.nu = checked_nu(evaluate_number(value, what, known), what);
+    else
       {
-        const auto colon = entry.find(':');
-        AssertThrow(colon != std::string::npos,
-                    ExcMessage(std::string(regions_parameter) + ": '" + entry +
-                               "' has no ':'; write 'name: h = 0.1'."));
-        const std::string name = Text::trim(entry.substr(0, colon));
-        const std::string where =
-          std::string(regions_parameter) + ", region '" + name + "'";
-        const auto [place, is_new] = regions_.try_emplace(name);
-        AssertThrow(is_new, ExcMessage(where + " stands twice."));
-        for (const auto &item :
-             Text::split(entry.substr(colon + 1), ',', where))
-          {
-            const auto [key, value] = Text::key_and_value(item);
-            AssertThrow(std::find(keys.begin(), keys.end(), key) != keys.end(),
-                        ExcMessage(
-                          Text::unknown_name(where, "value", key, keys)));
-            const std::string what = where + ", " + key;
-            if (key == "nu")
-              place->second.nu =
-                checked_nu(evaluate_number(value, what, known), what);
-            else
-              {
-                Expression expression(value, what, known);
-                if (key != "density" && expression.is_constant())
-                  positive(expression(Point<3>()), what, Point<3>());
-                place->second.values[key] = std::move(expression);
-              }
-          }
+        Expression expression(value, what, known);
+        if (key != "density" && expression.is_constant())
+          positive(expression(Point<3>()), what, Point<3>());
+        region.values[key] = std::move(expression);
       }
   }
 
   void
-  LinearElasticSection::set_regions(const std::vector<std::string> &names)
+  LinearElasticSection::set_regions(const MeshRegions &mesh)
   {
-    region_of_id_.assign(names.size(), nullptr);
+    const auto plain = [&](const std::string &name) {
+      return mesh.names_ignore_case ? Text::lower_case(name) : name;
+    };
+    std::vector<std::string>                         known;
+    std::map<std::string, std::vector<unsigned int>> ids;
+    for (unsigned int id = 0; id < mesh.regions.size(); ++id)
+      for (const std::string &name : mesh.regions[id].names)
+        {
+          ids[plain(name)].push_back(id);
+          if (ids[plain(name)].size() == 1)
+            known.push_back(name);
+        }
+
+    region_of_id_.assign(mesh.regions.size(), nullptr);
+    std::vector<std::string> name_of_id(mesh.regions.size());
     for (const auto &[name, region] : regions_)
       {
-        const auto found = std::find(names.begin(), names.end(), name);
-        AssertThrow(names.size() > 1,
+        AssertThrow(!known.empty(),
                     ExcMessage(std::string(regions_parameter) +
                                ": the mid-surface has no region '" + name +
                                "': only mesh files with named groups of cells "
                                "have regions."));
-        AssertThrow(found != names.end() && !name.empty(),
-                    ExcMessage(
-                      Text::unknown_name(regions_parameter,
-                                         "region",
-                                         name,
-                                         {names.begin() + 1, names.end()})));
-        region_of_id_[found - names.begin()] = &region;
+        const auto found = ids.find(plain(name));
+        AssertThrow(
+          found != ids.end(),
+          ExcMessage(
+            Text::unknown_name(regions_parameter, "region", name, known)));
+        for (const unsigned int id : found->second)
+          {
+            AssertThrow(region_of_id_[id] == nullptr,
+                        ExcMessage(std::string(regions_parameter) + ": " +
+                                   mesh.regions[id].example +
+                                   " is in both of the regions '" +
+                                   name_of_id[id] + "' and '" + name +
+                                   "'; only one of them can give its "
+                                   "section."));
+            region_of_id_[id] = &region;
+            name_of_id[id]    = name;
+          }
       }
   }
 

@@ -123,15 +123,16 @@ namespace Nacre
     }
 
     using EdgeDisplacement = std::function<Vector3(const Point<spacedim> &)>;
+    using BoundaryIds      = std::set<types::boundary_id>;
 
     /**
      * The displacement @p virtual_displacement of the nodes of an edge, hanging
      * nodes following.
      */
     TrilinosWrappers::MPI::Vector
-    edge_displacement(const Discretization    &discretization,
-                      const types::boundary_id id,
-                      const EdgeDisplacement  &virtual_displacement)
+    edge_displacement(const Discretization   &discretization,
+                      const BoundaryIds      &ids,
+                      const EdgeDisplacement &virtual_displacement)
     {
       const auto                   &node_dofs = discretization.node_dofs();
       TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
@@ -142,7 +143,7 @@ namespace Nacre
         if (cell->is_locally_owned() && cell->at_boundary())
           for (const auto face : cell->face_indices())
             if (cell->at_boundary(face) &&
-                cell->face(face)->boundary_id() == id)
+                ids.count(cell->face(face)->boundary_id()) > 0)
               {
                 const auto nodes = discretization.node_positions(cell);
                 cell->get_dof_indices(dofs);
@@ -158,12 +159,12 @@ namespace Nacre
 
     /** Its virtual work with the residual. */
     double
-    virtual_work(const SolvedShell       &shell,
-                 const types::boundary_id id,
-                 const EdgeDisplacement  &virtual_displacement)
+    virtual_work(const SolvedShell      &shell,
+                 const BoundaryIds      &ids,
+                 const EdgeDisplacement &virtual_displacement)
     {
       return shell.residual *
-             edge_displacement(shell.discretization, id, virtual_displacement);
+             edge_displacement(shell.discretization, ids, virtual_displacement);
     }
 
     /**
@@ -173,18 +174,20 @@ namespace Nacre
      * nodes inside: formulation.md.
      */
     double
-    reaction_moment(const SolvedShell       &shell,
-                    const types::boundary_id id,
-                    const Vector3           &direction,
-                    const Point<spacedim>   &origin)
+    reaction_moment(const SolvedShell     &shell,
+                    const BoundaryIds     &ids,
+                    const Vector3         &direction,
+                    const Point<spacedim> &origin)
     {
       const double forces =
-        virtual_work(shell, id, [&](const Point<spacedim> &x) {
+        virtual_work(shell, ids, [&](const Point<spacedim> &x) {
           return cross_product_3d(direction, x - origin);
         });
-      return forces -
-             direction *
-               shell.shell_operator.rotation_reaction(id, shell.displacement);
+      Vector3 moment;
+      for (const auto id : ids)
+        moment +=
+          shell.shell_operator.rotation_reaction(id, shell.displacement);
+      return forces - direction * moment;
     }
 
     /** Words of a kind and its arguments. */
@@ -207,23 +210,19 @@ namespace Nacre
         return true;
       }
 
-      /** What stands before @p word (outside parentheses) or the end. */
+      /**
+       * What stands before @p word, outside of parentheses and quotes, or
+       * before the end.
+       */
       std::string
       up_to(const std::string &word)
       {
-        int depth = 0;
-        for (std::size_t k = 0; k < text.size(); ++k)
-          {
-            depth += (text[k] == '(') - (text[k] == ')');
-            if (depth == 0 &&
-                text.compare(k, word.size() + 2, " " + word + " ") == 0)
-              {
-                const std::string before = Text::trim(text.substr(0, k));
-                text = Text::trim(text.substr(k + word.size() + 2));
-                return before;
-              }
-          }
-        return std::exchange(text, "");
+        const auto place = Text::find(text, " " + word + " ");
+        if (place == std::string::npos)
+          return std::exchange(text, "");
+        const std::string before = Text::trim(text.substr(0, place));
+        text = Text::trim(text.substr(place + word.size() + 2));
+        return before;
       }
     };
 
@@ -382,18 +381,18 @@ namespace Nacre
       AssertThrow(direction && !phrase.text.empty(),
                   ExcMessage(where + ": write 'reaction x of EDGE' or "
                                      "'moment x of EDGE'."));
-      const auto id =
-        midsurface.edge_id(phrase.up_to(is_moment ? "about" : ";"), where);
+      const auto ids =
+        midsurface.edge_ids(phrase.up_to(is_moment ? "about" : ";"), where);
       if (!is_moment)
         {
           const EdgeDisplacement along = [=](const auto &) {
             return *direction;
           };
           quantity.evaluate = [=](const SolvedShell &shell) {
-            return virtual_work(shell, id, along);
+            return virtual_work(shell, ids, along);
           };
           quantity.goal.edge = [=](const Discretization &discretization) {
-            return edge_displacement(discretization, id, along);
+            return edge_displacement(discretization, ids, along);
           };
           return;
         }
@@ -401,7 +400,7 @@ namespace Nacre
                             Point<spacedim>() :
                             evaluate_point(phrase.text, where, constants);
       quantity.evaluate = [=](const SolvedShell &shell) {
-        return reaction_moment(shell, id, *direction, origin);
+        return reaction_moment(shell, ids, *direction, origin);
       };
     }
 
@@ -522,7 +521,7 @@ namespace Nacre
         Quantity          quantity;
         quantity.name = name;
 
-        const auto arrow = definition.find("->");
+        const auto arrow = Text::find(definition, "->");
         if (arrow != std::string::npos)
           quantity.reference =
             evaluate_number(Text::trim(definition.substr(arrow + 2)),

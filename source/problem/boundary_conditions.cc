@@ -9,6 +9,8 @@ namespace Nacre
 {
   namespace
   {
+    const std::string edges_parameter = "Boundary conditions/Edges";
+
     const std::vector<std::pair<std::string, Direction>> component_names = {
       {"x", Direction::x},
       {"y", Direction::y},
@@ -23,12 +25,18 @@ namespace Nacre
                    const std::string &where,
                    const std::string &form)
     {
-      const auto colon = text.find(':');
+      const auto colon = Text::find(text, ":");
       AssertThrow(colon != std::string::npos,
                   ExcMessage(where + ": '" + text + "' has no ':'; write '" +
                              form + "'."));
       return {Text::trim(text.substr(0, colon)),
               Text::trim(text.substr(colon + 1))};
+    }
+
+    std::vector<Text::Entry>
+    entries_of_edges(const std::string &text)
+    {
+      return Text::entries(text, edges_parameter, "edge", "u=0: clamped");
     }
 
     DisplacementCondition
@@ -57,7 +65,8 @@ namespace Nacre
     add_parameter(
       "Edges",
       edges_text_,
-      "Conditions on named edges: 'edge[, edge]: item, item; ...'. Items: "
+      "Conditions on named edges: 'edge[, edge]: item, item; ...'; names with "
+      "commas, colons or semicolons in double quotes. Items: "
       "free; fixed (x = y = z = 0); clamped (fixed, rotation 0); symmetry (no "
       "displacement across the plane that holds the edge, rotation 0); "
       "diaphragm (no displacement within the plane that holds the edge); "
@@ -142,34 +151,64 @@ namespace Nacre
   }
 
   void
+  BoundaryConditions::add_edge(const Midsurface               &midsurface,
+                               const std::string              &name,
+                               const std::vector<std::string> &items,
+                               const Constants                &constants)
+  {
+    const auto ids   = midsurface.edge_ids(name, edges_parameter);
+    const auto plain = Text::unquoted(name);
+    const auto where = edges_parameter + ", edge '" + plain + "'";
+    AssertThrow(!items.empty(),
+                ExcMessage(where + " has no condition; write 'free' if that is "
+                                   "meant."));
+    auto first = numbers::invalid_boundary_id;
+    for (const auto id : ids)
+      {
+        auto &conditions = edges_[id];
+        AssertThrow(conditions.name != plain,
+                    ExcMessage(where + " has conditions twice; write all of "
+                                       "them in one entry."));
+        AssertThrow(conditions.name.empty() || conditions.items == items,
+                    ExcMessage(where + ": " + midsurface.describe_side(id) +
+                               " has other conditions by the name '" +
+                               conditions.name +
+                               "'; one side can't have both."));
+        if (!conditions.name.empty())
+          continue;
+        first            = std::min(first, id);
+        conditions.edge  = first;
+        conditions.name  = plain;
+        conditions.items = items;
+        for (const auto &item : items)
+          add_edge_item(conditions, item, where, constants);
+      }
+  }
+
+  std::vector<std::string>
+  BoundaryConditions::named_edges() const
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : entries_of_edges(edges_text_))
+      names.insert(names.end(), entry.names.begin(), entry.names.end());
+    return names;
+  }
+
+  void
   BoundaryConditions::prepare(const Midsurface &midsurface,
                               const Constants  &constants)
   {
     edges_.clear();
     points_.clear();
-    const std::string edges_parameter = "Boundary conditions/Edges";
-    for (const auto &entry : Text::split(edges_text_, ';', edges_parameter))
-      {
-        const auto [names, items] =
-          name_and_items(entry, edges_parameter, "u=0: clamped");
-        AssertThrow(!names.empty(),
-                    ExcMessage(edges_parameter + ": '" + entry +
-                               "' names no edge; write 'u=0: clamped'."));
-        for (const auto &name : Text::split(names, ',', edges_parameter))
-          {
-            const auto id    = midsurface.edge_id(name, edges_parameter);
-            const auto where = edges_parameter + ", edge '" + name + "'";
-            AssertThrow(edges_.count(id) == 0,
-                        ExcMessage(where + " has conditions twice; write all "
-                                           "of them in one entry."));
-            const auto parts = Text::split(items, ',', where);
-            AssertThrow(!parts.empty(),
-                        ExcMessage(where + " has no condition; write 'free' if "
-                                           "that is meant."));
-            for (const auto &item : parts)
-              add_edge_item(edges_[id], item, where, constants);
-          }
-      }
+    for (const auto &entry : entries_of_edges(edges_text_))
+      for (const auto &name : entry.names)
+        add_edge(midsurface,
+                 name,
+                 Text::split(entry.value,
+                             ',',
+                             edges_parameter + ", edge '" +
+                               Text::unquoted(name) + "'"),
+                 constants);
 
     const std::string points_parameter = "Boundary conditions/Points";
     for (const auto &entry : Text::split(points_text_, ';', points_parameter))

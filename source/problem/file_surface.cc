@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/problem/mesh_file.h>
+#include <nacre/problem/mesh_checks.h>
 #include <nacre/problem/surface_projection.h>
 #include <nacre/problem/surfaces.h>
 
@@ -82,9 +82,7 @@ namespace Nacre
     }
 
     SurfaceDescription
-    describe_surface(const MeshFile     &mesh,
-                     const MeshBoundary &boundary,
-                     const bool          flat)
+    describe_surface(const MeshFile &mesh, MeshNames &&names, const bool flat)
     {
       SurfaceDescription surface;
       const auto         vertex = number_vertices(mesh, surface);
@@ -98,24 +96,39 @@ namespace Nacre
           cell.chart = mesh.points(k);
           if (flat)
             cell.chart.resize(n_corners);
-
-          const std::string &group = mesh.cells[k].group;
-          const auto         found =
-            std::find(surface.regions.begin(), surface.regions.end(), group);
-          cell.region = found - surface.regions.begin();
-          if (found == surface.regions.end())
-            surface.regions.push_back(group);
+          cell.region = names.region_of_cell[k];
           surface.cells.push_back(std::move(cell));
           surface.cell_names.push_back(mesh.describe_cell(k) + " of '" +
                                        mesh.path + "'");
         }
-      for (const std::string &name : boundary.names)
-        surface.edges.push_back({name, {}, {}});
-      for (const MeshBoundary::Line &line : boundary.lines)
+      for (const auto &[line, edge] : names.edge_of_line)
         surface
           .edge_of_line[std::minmax(vertex[line.first], vertex[line.second])] =
-          line.edge;
+          edge;
+      surface.edges      = std::move(names.edges);
+      surface.edge_names = std::move(names.edge_names);
+      surface.regions    = std::move(names.regions);
+      for (const std::string &note : mesh.notes)
+        surface.notes.push_back("The mesh file '" + mesh.path + "': " + note);
       return surface;
+    }
+
+    /** Whether slits are meant where nodes lie at one place. */
+    bool
+    allows_slits(const SurfaceInput &input)
+    {
+      return input.choice("Slits", {"refused", "allowed"}) == "allowed";
+    }
+
+    double
+    merge_distance(const SurfaceInput &input)
+    {
+      const double distance = input.number("Merge distance");
+      AssertThrow(distance >= 0.,
+                  ExcMessage(input.where("Merge distance") + ": found " +
+                             input.text("Merge distance") +
+                             "; it must not be negative."));
+      return distance;
     }
   } // namespace
 
@@ -128,10 +141,24 @@ namespace Nacre
     const std::string curvature = input.choice("Curvature", curvatures);
     const InputFile   file      = input.file("File name");
 
-    MeshFile           mesh     = read_mesh(file.content, file.path);
-    const MeshBoundary boundary = check_mesh(mesh);
+    MeshFile mesh = read_mesh(file,
+                              [&input](const std::string &name,
+                                       const std::string &folder,
+                                       const std::string &where) {
+                                return input.file_beside(name, folder, where);
+                              });
+    leave_out_unused_nodes(mesh);
+    merge_nodes(mesh, merge_distance(input));
+    const bool slits = allows_slits(input);
+    check_places(mesh, slits);
+    check_cells(mesh);
+    const MeshSides sides = find_sides(mesh);
+    if (!slits)
+      check_hanging_nodes(mesh, sides);
+    MeshNames names = find_names(mesh, sides);
+    orient_cells(mesh, sides);
     SurfaceDescription surface =
-      describe_surface(mesh, boundary, curvature == "flat");
+      describe_surface(mesh, std::move(names), curvature == "flat");
     if (curvature == "file" || curvature == "flat")
       surface.map = make_chart_map([](const Point<3> &point) { return point; });
     else
@@ -156,8 +183,9 @@ namespace Nacre
       {"File name",
        "",
        "The mesh: gmsh .msh (2.2, 4.1), legacy VTK, Abaqus .inp or UCD, as "
-       "text; cells with 3, 4, 6, 8 or 9 nodes. Its groups of lines are the "
-       "edges, other boundary lines the edge 'boundary'; its groups of cells "
+       "text; cells with 3, 4, 6, 8 or 9 nodes. Its groups of lines and sets "
+       "of nodes or sides are the edges; what no edge of a condition or load "
+       "holds is the edge 'boundary'; its groups of cells "
        "are regions for Section/Regions. A relative name starts from the "
        "folder of the parameter file if it exists there, else from the "
        "current folder. Units: none"},
@@ -166,6 +194,15 @@ namespace Nacre
        "file: the nodes define the surface, in second-order cells with the "
        "middles of the sides; flat: only the corners count, sides are "
        "straight; or the name of a surface: everything is projected onto that "
-       "surface with the parameters of its subsection. Units: none"}};
+       "surface with the parameters of its subsection. Units: none"},
+      {"Merge distance",
+       "0",
+       "Nodes at most so far from each other become one, as along a seam that "
+       "isn't merged in the file; 0: none. Units: length"},
+      {"Slits",
+       "refused",
+       "Nodes of different cells at the same place (nearer than 1/1000 of the "
+       "sides of their cells), after merging: refused, they are a seam that "
+       "isn't merged; allowed, they are the lips of a slit. Units: none"}};
   }
 } // namespace Nacre

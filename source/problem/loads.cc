@@ -9,6 +9,12 @@ namespace Nacre
 {
   namespace
   {
+    /** Names that a load's expression may use. */
+    const std::string variables = "x,y,z,t";
+
+    const std::string forces_parameter  = "Loads/Edge forces";
+    const std::string moments_parameter = "Loads/Edge moments";
+
     /** Call @p add(name, value, where) for each "name[, name]: value; ...". */
     template <typename Function>
     void
@@ -16,26 +22,48 @@ namespace Nacre
                    const std::string &parameter,
                    const Function    &add)
     {
-      for (const auto &entry : Text::split(text, ';', parameter))
-        {
-          const auto colon = entry.find(':');
-          AssertThrow(colon != std::string::npos,
-                      ExcMessage(parameter + ": '" + entry +
-                                 "' has no ':' between the place and the "
-                                 "load."));
-          AssertThrow(!Text::trim(entry.substr(0, colon)).empty(),
-                      ExcMessage(parameter + ": '" + entry +
-                                 "' names no place before ':'."));
-          for (const auto &place :
-               Text::split(entry.substr(0, colon), ',', parameter))
-            add(place,
-                Text::trim(entry.substr(colon + 1)),
-                parameter + ", '" + place + "'");
-        }
+      for (const auto &entry :
+           Text::entries(text, parameter, "place", "place: load"))
+        for (const auto &place : entry.names)
+          add(place,
+              entry.value,
+              parameter + ", '" + Text::unquoted(place) + "'");
     }
 
-    /** Names that a load's expression may use. */
-    const std::string variables = "x,y,z,t";
+    /**
+     * Loads of one kind from "edge[, edge]: value; ...", on every boundary id of
+     * the edges; @p Load is made of (value, where, constants, variables).
+     */
+    template <typename Load>
+    std::map<types::boundary_id, Load>
+    edge_loads(const std::string &text,
+               const std::string &parameter,
+               const Midsurface  &midsurface,
+               const Constants   &constants)
+    {
+      std::map<types::boundary_id, Load>        loads;
+      std::map<types::boundary_id, std::string> names;
+      for_each_entry(
+        text,
+        parameter,
+        [&](const auto &edge, const auto &value, const auto &where) {
+          const std::string name = Text::unquoted(edge);
+          for (const auto id : midsurface.edge_ids(edge, where))
+            {
+              const auto [other, is_new] = names.emplace(id, name);
+              AssertThrow(is_new || other->second != name,
+                          ExcMessage(where + " stands twice."));
+              AssertThrow(is_new,
+                          ExcMessage(where + ": " +
+                                     midsurface.describe_side(id) +
+                                     " has a load already, as a part of the "
+                                     "edge '" +
+                                     other->second + "'; one is possible."));
+              loads.emplace(id, Load(value, where, constants, variables));
+            }
+        });
+      return loads;
+    }
   } // namespace
 
   Loads::Loads()
@@ -71,6 +99,18 @@ namespace Nacre
                   "'(x, y, z): Fx, Fy, Fz; ...'. Units: length; force.");
   }
 
+  std::vector<std::string>
+  Loads::named_edges() const
+  {
+    std::vector<std::string> names;
+    const auto               add = [&](const auto &edge, const auto &...) {
+      names.push_back(edge);
+    };
+    for_each_entry(edge_forces_text_, forces_parameter, add);
+    for_each_entry(edge_moments_text_, moments_parameter, add);
+    return names;
+  }
+
   void
   Loads::prepare(const Midsurface &midsurface, const Constants &constants)
   {
@@ -83,31 +123,14 @@ namespace Nacre
     pressure_ =
       Expression(pressure_text_, "Loads/Pressure", constants, variables);
 
-    const auto unique = [](const bool inserted, const std::string &where) {
-      AssertThrow(inserted, ExcMessage(where + " stands twice."));
-    };
-    edge_forces_.clear();
-    for_each_entry(
-      edge_forces_text_,
-      "Loads/Edge forces",
-      [&](const auto &edge, const auto &value, const auto &where) {
-        unique(edge_forces_
-                 .emplace(midsurface.edge_id(edge, where),
-                          VectorExpression(value, where, constants, variables))
-                 .second,
-               where);
-      });
-    edge_moments_.clear();
-    for_each_entry(
-      edge_moments_text_,
-      "Loads/Edge moments",
-      [&](const auto &edge, const auto &value, const auto &where) {
-        unique(edge_moments_
-                 .emplace(midsurface.edge_id(edge, where),
-                          Expression(value, where, constants, variables))
-                 .second,
-               where);
-      });
+    edge_forces_  = edge_loads<VectorExpression>(edge_forces_text_,
+                                                forces_parameter,
+                                                midsurface,
+                                                constants);
+    edge_moments_ = edge_loads<Expression>(edge_moments_text_,
+                                           moments_parameter,
+                                           midsurface,
+                                           constants);
     point_forces_.clear();
     for_each_entry(point_forces_text_,
                    "Loads/Point forces",

@@ -2,9 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/problem/coarse_cell.h>
-#include <nacre/problem/mesh_file.h>
+#include <nacre/problem/mesh_checks.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -13,192 +12,69 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace Nacre
 {
   namespace
   {
-    /** See check_mesh(). */
-    class MeshChecker
+    std::string
+    node(const MeshFile &mesh, const unsigned int index)
     {
-    public:
-      explicit MeshChecker(MeshFile &mesh)
-        : mesh_(mesh)
-      {}
-
-      void
-      check_cells() const;
-
-      void
-      find_sides();
-
-      void
-      orient_cells();
-
-      MeshBoundary
-      find_boundary() const;
-
-    private:
-      /** Ends, the smaller node first. */
-      using Line = std::pair<unsigned int, unsigned int>;
-
-      struct Side
-      {
-        unsigned int cell;
-        /** Whether the cell goes from the smaller node to the larger. */
-        bool forward;
-        /** The node in the middle, or none. */
-        unsigned int middle;
-      };
-
-      [[noreturn]] void
-      fail(const std::string &text) const
-      {
-        throw StandardExceptions::ExcMessage("The mesh file '" + mesh_.path +
-                                             "': " + text);
-      }
-
-      std::string
-      node(const unsigned int index) const
-      {
-        return std::to_string(mesh_.node_numbers[index]);
-      }
-
-      std::string
-      describe(const Line &line) const
-      {
-        return "the side between the nodes " + node(line.first) + " and " +
-               node(line.second);
-      }
-
-      void
-      check_kinds() const;
-      void
-      check_nodes() const;
-      void
-      check_places() const;
-      void
-      check_middles(const unsigned int cell) const;
-      void
-      check_area(const unsigned int cell) const;
-
-      const Side *
-      neighbor(const Line &line, const unsigned int cell) const;
-
-      void
-      turn_over(const unsigned int cell);
-
-      Line
-      side_of(const MeshFile::Element &element) const;
-
-      std::map<Line, std::string>
-      named_lines() const;
-
-      void
-      add_node_sets(std::map<Line, std::string> &names) const;
-
-      MeshFile                         &mesh_;
-      std::map<Line, std::vector<Side>> sides_;
-    };
+      return std::to_string(mesh.node_numbers[index]);
+    }
 
 
-    void
-    MeshChecker::check_cells() const
+    [[noreturn]] void
+    fail_at_repeated_node(const MeshFile    &mesh,
+                          const unsigned int cell,
+                          const unsigned int index)
     {
-      if (mesh_.cells.empty())
-        fail("it has no cells of a surface (triangles or quadrilaterals).");
-      check_kinds();
-      check_nodes();
-      check_places();
-      for (unsigned int k = 0; k < mesh_.cells.size(); ++k)
-        {
-          if (mesh_.cells[k].nodes.size() > mesh_.n_corners(k))
-            check_middles(k);
-          check_area(k);
-        }
+      const std::string text = mesh.describe_cell(cell);
+      if (mesh.n_corners(cell) == 3)
+        fail(mesh, text + " has the node " + node(mesh, index) + " twice.");
+      fail(mesh,
+           text + " is a quadrilateral with the node " + node(mesh, index) +
+             " twice, that is a triangle; a mesh can't have both. Mesh "
+             "the surface with quadrilaterals alone (gmsh: "
+             "Mesh.SubdivisionAlgorithm = 1) or with triangles alone "
+             "(Discretization/Element = triangle).");
+    }
+
+
+    /** 8-node cells get a centre: they are 9-node cells. */
+    std::size_t
+    kind(const std::size_t n_nodes)
+    {
+      return n_nodes == 8 ? 9 : n_nodes;
     }
 
 
     void
-    MeshChecker::check_kinds() const
+    check_kinds(const MeshFile &mesh)
     {
-      const auto n_nodes = mesh_.cells[0].nodes.size();
+      const auto n_nodes = mesh.cells[0].nodes.size();
       std::map<std::vector<unsigned int>, unsigned int> known;
-      for (unsigned int k = 0; k < mesh_.cells.size(); ++k)
+      for (unsigned int k = 0; k < mesh.cells.size(); ++k)
         {
-          const std::string cell  = mesh_.describe_cell(k);
-          const auto       &nodes = mesh_.cells[k].nodes;
-          if (nodes.size() != n_nodes)
-            fail(cell + " has " + std::to_string(nodes.size()) + " nodes and " +
-                 mesh_.describe_cell(0) + " has " + std::to_string(n_nodes) +
-                 "; all cells must be of one shape and degree.");
+          const std::string cell  = mesh.describe_cell(k);
+          const auto       &nodes = mesh.cells[k].nodes;
+          if (kind(nodes.size()) != kind(n_nodes))
+            fail(mesh,
+                 cell + " has " + std::to_string(nodes.size()) + " nodes and " +
+                   mesh.describe_cell(0) + " has " + std::to_string(n_nodes) +
+                   "; all cells must be of one shape and degree.");
           std::set<unsigned int> seen;
           for (const unsigned int i : nodes)
             if (!seen.insert(i).second)
-              fail(cell + " has the node " + node(i) + " twice.");
+              fail_at_repeated_node(mesh, k, i);
           std::vector<unsigned int> corners(nodes.begin(),
-                                            nodes.begin() + mesh_.n_corners(k));
+                                            nodes.begin() + mesh.n_corners(k));
           std::sort(corners.begin(), corners.end());
           const auto [entry, is_new] = known.emplace(corners, k);
           if (!is_new)
-            fail(cell + " has the same corners as " +
-                 mesh_.describe_cell(entry->second) +
-                 "; remove one, or put it into one group only.");
-        }
-    }
-
-
-    void
-    MeshChecker::check_nodes() const
-    {
-      std::vector<bool> used(mesh_.nodes.size(), false);
-      for (const auto &cell : mesh_.cells)
-        for (const unsigned int i : cell.nodes)
-          used[i] = true;
-      const auto unused = std::find(used.begin(), used.end(), false);
-      if (unused == used.end())
-        return;
-      const auto n = std::count(used.begin(), used.end(), false);
-      fail("the " + mesh_.describe_node(unused - used.begin()) +
-           " belongs to no cell" +
-           (n == 1 ? "" : " (nor do " + std::to_string(n - 1) + " others)") +
-           "; remove it (gmsh writes such nodes with Mesh.SaveAll; with "
-           "physical groups alone it doesn't).");
-    }
-
-
-    /** Nodes are sorted into boxes; neighbours are in one of 27. */
-    void
-    MeshChecker::check_places() const
-    {
-      const BoundingBox<3> box(mesh_.nodes);
-      const double         extent = box.get_boundary_points().first.distance(
-        box.get_boundary_points().second);
-      const double tolerance = 1e-9 * extent;
-      using Box              = std::array<long long, 3>;
-      std::map<Box, std::vector<unsigned int>> boxes;
-      for (unsigned int i = 0; i < mesh_.nodes.size(); ++i)
-        {
-          Box home;
-          for (unsigned int c = 0; c < 3; ++c)
-            home[c] = std::llround((mesh_.nodes[i][c] - box.lower_bound(c)) /
-                                   (4. * tolerance));
-          for (int n = 0; n < 27; ++n)
-            {
-              const auto found = boxes.find({{home[0] + n % 3 - 1,
-                                              home[1] + n / 3 % 3 - 1,
-                                              home[2] + n / 9 - 1}});
-              if (found == boxes.end())
-                continue;
-              for (const unsigned int j : found->second)
-                if (mesh_.nodes[i].distance(mesh_.nodes[j]) <= tolerance)
-                  fail("the nodes " + node(j) + " and " + node(i) +
-                       " lie at the same place; make them one (gmsh: "
-                       "Coherence Mesh), or move them apart if a slit is "
-                       "meant.");
-            }
-          boxes[home].push_back(i);
+            fail(mesh,
+                 cell + " has the same corners as " +
+                   mesh.describe_cell(entry->second) + "; remove one.");
         }
     }
 
@@ -208,29 +84,31 @@ namespace Nacre
      * Jacobian vanishes, and not further off than the side is long.
      */
     void
-    MeshChecker::check_middles(const unsigned int cell) const
+    check_middles(const MeshFile &mesh, const unsigned int cell)
     {
-      const auto &nodes = mesh_.cells[cell].nodes;
+      const auto &nodes = mesh.cells[cell].nodes;
       const auto  far   = [&](const unsigned int i, const std::string &of) {
-        fail("the " + mesh_.describe_node(nodes[i]) + " should be in the " +
-             "middle of " + of + " of " + mesh_.describe_cell(cell) +
-             " and is far off; is the order of the nodes right?");
+        fail(mesh,
+             "the " + mesh.describe_node(nodes[i]) + " should be in the " +
+               "middle of " + of + " of " + mesh.describe_cell(cell) +
+               " and is far off; is the order of the nodes right?");
       };
-      for (const auto &side : CoarseCell::sides(mesh_.n_corners(cell)))
+      for (const auto &side : CoarseCell::sides(mesh.n_corners(cell)))
         {
-          const Point<3>    &a     = mesh_.nodes[nodes[side.corners[0]]];
-          const Point<3>    &b     = mesh_.nodes[nodes[side.corners[1]]];
+          const Point<3>    &a     = mesh.nodes[nodes[side.corners[0]]];
+          const Point<3>    &b     = mesh.nodes[nodes[side.corners[1]]];
           const Tensor<1, 3> chord = b - a;
           const Tensor<1, 3> offset =
-            mesh_.nodes[nodes[side.middle]] - (a + 0.5 * chord);
+            mesh.nodes[nodes[side.middle]] - (a + 0.5 * chord);
           if (std::abs(offset * chord) >= 0.25 * chord.norm_square() ||
               offset.norm() > chord.norm())
             far(side.middle,
-                describe({nodes[side.corners[0]], nodes[side.corners[1]]}));
+                describe(mesh,
+                         {nodes[side.corners[0]], nodes[side.corners[1]]}));
         }
       if (nodes.size() < 9)
         return;
-      const auto     points = mesh_.points(cell);
+      const auto     points = mesh.points(cell);
       const Point<3> centre = CoarseCell::serendipity_centre(points);
       const double   size =
         std::min(points[0].distance(points[3]), points[1].distance(points[2]));
@@ -240,10 +118,10 @@ namespace Nacre
 
 
     void
-    MeshChecker::check_area(const unsigned int cell) const
+    check_area(const MeshFile &mesh, const unsigned int cell)
     {
-      const auto            points    = mesh_.points(cell);
-      const unsigned int    n_corners = mesh_.n_corners(cell);
+      const auto            points    = mesh.points(cell);
+      const unsigned int    n_corners = mesh.n_corners(cell);
       std::vector<Point<2>> units     = n_corners == 3 ?
                                           QGaussSimplex<2>(3).get_points() :
                                           QGauss<2>(3).get_points();
@@ -262,55 +140,27 @@ namespace Nacre
         }
       for (const Tensor<1, 3> &normal : normals)
         if (!(normal.norm() > 1e-8 * longest))
-          fail(mesh_.describe_cell(cell) +
-               " is degenerate: its area is zero, or zero at a point (corners "
-               "at one place, on one line, or middles on quarter points).");
+          fail(
+            mesh,
+            mesh.describe_cell(cell) +
+              " is degenerate: its area is zero, or zero at a point (corners "
+              "at one place, on one line, or middles on quarter points).");
       for (const Tensor<1, 3> &normal : normals)
         if (!(normal * mean > 1e-8 * longest * mean.norm()))
-          fail(mesh_.describe_cell(cell) +
-               " is folded: its normal turns by more than 90 degrees within "
-               "the cell (wrong order of nodes, a concave corner, or too "
-               "large a cell).");
+          fail(mesh,
+               mesh.describe_cell(cell) +
+                 " is folded: its normal turns by more than 90 degrees within "
+                 "the cell (wrong order of nodes, a concave corner, or too "
+                 "large a cell).");
     }
 
 
-    void
-    MeshChecker::find_sides()
+    const MeshSide *
+    neighbor(const MeshSides   &all,
+             const MeshLine    &line,
+             const unsigned int cell)
     {
-      for (unsigned int k = 0; k < mesh_.cells.size(); ++k)
-        for (const auto &side : CoarseCell::sides(mesh_.n_corners(k)))
-          {
-            const auto        &nodes  = mesh_.cells[k].nodes;
-            const unsigned int a      = nodes[side.corners[0]];
-            const unsigned int b      = nodes[side.corners[1]];
-            const unsigned int middle = nodes.size() > mesh_.n_corners(k) ?
-                                          nodes[side.middle] :
-                                          numbers::invalid_unsigned_int;
-            sides_[std::minmax(a, b)].push_back({k, a < b, middle});
-          }
-      for (const auto &[line, sides] : sides_)
-        {
-          if (sides.size() > 2)
-            fail(
-              describe(line) + " is shared by " + std::to_string(sides.size()) +
-              " cells: " + std::to_string(mesh_.cells[sides[0].cell].number) +
-              ", " + std::to_string(mesh_.cells[sides[1].cell].number) + ", " +
-              std::to_string(mesh_.cells[sides[2].cell].number) +
-              (sides.size() > 3 ? ", ..." : "") +
-              "; surfaces that branch aren't possible.");
-          if (sides.size() == 2 && sides[0].middle != sides[1].middle)
-            fail(describe(line) + " has the middle " + node(sides[0].middle) +
-                 " in " + mesh_.describe_cell(sides[0].cell) + " and " +
-                 node(sides[1].middle) + " in " +
-                 mesh_.describe_cell(sides[1].cell) + ".");
-        }
-    }
-
-
-    const MeshChecker::Side *
-    MeshChecker::neighbor(const Line &line, const unsigned int cell) const
-    {
-      const auto &sides = sides_.at(line);
+      const auto &sides = all.at(line);
       if (sides.size() < 2)
         return nullptr;
       return &(sides[0].cell == cell ? sides[1] : sides[0]);
@@ -318,198 +168,134 @@ namespace Nacre
 
 
     void
-    MeshChecker::turn_over(const unsigned int cell)
+    turn_over(MeshFile &mesh, const unsigned int cell)
     {
-      const std::vector<unsigned int> old = mesh_.cells[cell].nodes;
+      const std::vector<unsigned int> old = mesh.cells[cell].nodes;
       for (unsigned int i = 0; i < old.size(); ++i)
-        mesh_.cells[cell].nodes[i] =
-          old[CoarseCell::turned_over(old.size())[i]];
-    }
-
-
-    void
-    MeshChecker::orient_cells()
-    {
-      enum : int
-      {
-        unknown = 0,
-        kept    = 1,
-        turned  = -1
-      };
-      std::vector<int>          state(mesh_.cells.size(), unknown);
-      std::vector<unsigned int> reached = {0};
-      state[0]                          = kept;
-      for (unsigned int i = 0; i < reached.size(); ++i)
-        {
-          const unsigned int cell  = reached[i];
-          const auto        &nodes = mesh_.cells[cell].nodes;
-          for (const auto &[ends, middle] :
-               CoarseCell::sides(mesh_.n_corners(cell)))
-            {
-              (void)middle;
-              const unsigned int a = nodes[ends[0]], b = nodes[ends[1]];
-              const Line         line  = std::minmax(a, b);
-              const Side *const  other = neighbor(line, cell);
-              if (other == nullptr)
-                continue;
-              // Neighbours of one orientation go along a side both ways.
-              const int wanted =
-                (other->forward != (a < b)) ? state[cell] : -state[cell];
-              if (state[other->cell] == unknown)
-                {
-                  state[other->cell] = wanted;
-                  reached.push_back(other->cell);
-                }
-              else if (state[other->cell] != wanted)
-                fail("the cells can't be given one orientation: across " +
-                     describe(line) + " " + mesh_.describe_cell(cell) +
-                     " and " + mesh_.describe_cell(other->cell) +
-                     " have opposite ones, whichever way one goes round; a "
-                     "surface with one side only (a Moebius strip) isn't "
-                     "possible.");
-            }
-        }
-      const auto apart = std::find(state.begin(), state.end(), unknown);
-      if (apart != state.end())
-        fail("the mesh has several parts: " + mesh_.describe_cell(0) + " and " +
-             mesh_.describe_cell(apart - state.begin()) +
-             " aren't connected by common sides.");
-      const int few = 2 * std::count(state.begin(), state.end(), turned) >
-                          static_cast<std::ptrdiff_t>(state.size()) ?
-                        kept :
-                        turned;
-      for (unsigned int k = 0; k < state.size(); ++k)
-        if (state[k] == few)
-          turn_over(k);
-    }
-
-
-    /** The side of a cell that a line element is; any order of its nodes. */
-    MeshChecker::Line
-    MeshChecker::side_of(const MeshFile::Element &element) const
-    {
-      const auto &nodes = element.nodes;
-      for (unsigned int i = 0; i < nodes.size(); ++i)
-        for (unsigned int j = 0; j < i; ++j)
-          {
-            const auto found = sides_.find(std::minmax(nodes[i], nodes[j]));
-            if (found != sides_.end() &&
-                (nodes.size() == 2 ||
-                 found->second[0].middle == nodes[3 - i - j]))
-              return found->first;
-          }
-      fail("the line " + std::to_string(element.number) +
-           " between the nodes " + node(nodes[0]) + " and " + node(nodes[1]) +
-           " is no side of a cell.");
-    }
-
-
-    /** Groups of lines inside of the surface are no edges. */
-    std::map<MeshChecker::Line, std::string>
-    MeshChecker::named_lines() const
-    {
-      std::map<Line, std::string>                      names;
-      std::map<std::string, const MeshFile::Element *> inside, outside;
-      for (const MeshFile::Element &element : mesh_.lines)
-        {
-          if (element.group.empty())
-            continue;
-          const Line  line     = side_of(element);
-          const bool  interior = sides_.at(line).size() == 2;
-          auto       &found    = interior ? inside : outside;
-          const auto &other    = interior ? outside : inside;
-          found[element.group] = &element;
-          const auto part      = other.find(element.group);
-          if (part != other.end())
-            fail("the group '" + element.group +
-                 "' is partly inside of the surface: the line " +
-                 std::to_string((interior ? element : *part->second).number) +
-                 " lies between two cells.");
-          if (interior)
-            continue;
-          const auto [entry, is_new] = names.emplace(line, element.group);
-          if (!is_new && entry->second != element.group)
-            fail(describe(line) + " is in two groups, '" + entry->second +
-                 "' and '" + element.group + "'; one is possible.");
-        }
-      add_node_sets(names);
-      return names;
-    }
-
-
-    /** A set of nodes stands for the sides of which it holds all nodes. */
-    void
-    MeshChecker::add_node_sets(std::map<Line, std::string> &names) const
-    {
-      std::map<Line, std::string> found;
-      for (const MeshFile::NodeSet &set : mesh_.node_sets)
-        {
-          const std::set<unsigned int> nodes(set.nodes.begin(),
-                                             set.nodes.end());
-          if (nodes.size() == mesh_.nodes.size())
-            continue;
-          for (const auto &[line, sides] : sides_)
-            if (sides.size() == 1 && names.count(line) == 0 &&
-                nodes.count(line.first) > 0 && nodes.count(line.second) > 0 &&
-                (sides[0].middle == numbers::invalid_unsigned_int ||
-                 nodes.count(sides[0].middle) > 0))
-              {
-                const auto [entry, is_new] = found.emplace(line, set.name);
-                if (!is_new && entry->second != set.name)
-                  fail(describe(line) + " is in two sets of nodes, '" +
-                       entry->second + "' and '" + set.name +
-                       "'; one is possible.");
-              }
-        }
-      names.insert(found.begin(), found.end());
-    }
-
-
-    MeshBoundary
-    MeshChecker::find_boundary() const
-    {
-      const auto   names = named_lines();
-      MeshBoundary boundary;
-      const auto   index_of = [&](const std::string &name) {
-        const auto found =
-          std::find(boundary.names.begin(), boundary.names.end(), name);
-        if (found == boundary.names.end())
-          {
-            boundary.names.push_back(name);
-            return boundary.names.size() - 1;
-          }
-        return static_cast<std::size_t>(found - boundary.names.begin());
-      };
-      // The order of the file first.
-      for (const MeshFile::Element &element : mesh_.lines)
-        if (!element.group.empty() && sides_.at(side_of(element)).size() == 1)
-          index_of(element.group);
-      std::set<std::string> in_use;
-      for (const auto &[line, name] : names)
-        in_use.insert(name);
-      for (const MeshFile::NodeSet &set : mesh_.node_sets)
-        if (in_use.count(set.name) > 0)
-          index_of(set.name);
-      for (const auto &[line, sides] : sides_)
-        if (sides.size() == 1)
-          {
-            const auto         name = names.find(line);
-            const unsigned int edge =
-              index_of(name == names.end() ? "boundary" : name->second);
-            boundary.lines.push_back({line.first, line.second, edge});
-          }
-      return boundary;
+        mesh.cells[cell].nodes[i] = old[CoarseCell::turned_over(old.size())[i]];
     }
   } // namespace
 
 
-  MeshBoundary
-  check_mesh(MeshFile &mesh)
+  void
+  check_cells(const MeshFile &mesh)
   {
-    MeshChecker checker(mesh);
-    checker.check_cells();
-    checker.find_sides();
-    checker.orient_cells();
-    return checker.find_boundary();
+    if (mesh.cells.empty())
+      fail(mesh, "it has no cells of a surface (triangles or quadrilaterals).");
+    check_kinds(mesh);
+    for (unsigned int k = 0; k < mesh.cells.size(); ++k)
+      {
+        if (mesh.cells[k].nodes.size() > mesh.n_corners(k))
+          check_middles(mesh, k);
+        check_area(mesh, k);
+      }
+  }
+
+
+  MeshSides
+  find_sides(const MeshFile &mesh)
+  {
+    MeshSides result;
+    for (unsigned int k = 0; k < mesh.cells.size(); ++k)
+      for (const auto &side : CoarseCell::sides(mesh.n_corners(k)))
+        {
+          const auto        &nodes  = mesh.cells[k].nodes;
+          const unsigned int a      = nodes[side.corners[0]];
+          const unsigned int b      = nodes[side.corners[1]];
+          const unsigned int middle = nodes.size() > mesh.n_corners(k) ?
+                                        nodes[side.middle] :
+                                        numbers::invalid_unsigned_int;
+          result[std::minmax(a, b)].push_back({k, a < b, middle});
+        }
+    for (const auto &[line, sides] : result)
+      {
+        if (sides.size() > 2)
+          fail(mesh,
+               describe(mesh, line) + " is shared by " +
+                 std::to_string(sides.size()) +
+                 " cells: " + std::to_string(mesh.cells[sides[0].cell].number) +
+                 ", " + std::to_string(mesh.cells[sides[1].cell].number) +
+                 ", " + std::to_string(mesh.cells[sides[2].cell].number) +
+                 (sides.size() > 3 ? ", ..." : "") +
+                 "; surfaces that branch aren't possible.");
+        if (sides.size() == 2 && sides[0].middle != sides[1].middle)
+          fail(mesh,
+               describe(mesh, line) + " has the middle " +
+                 node(mesh, sides[0].middle) + " in " +
+                 mesh.describe_cell(sides[0].cell) + " and " +
+                 node(mesh, sides[1].middle) + " in " +
+                 mesh.describe_cell(sides[1].cell) + ".");
+      }
+    return result;
+  }
+
+
+  void
+  orient_cells(MeshFile &mesh, const MeshSides &sides)
+  {
+    enum : int
+    {
+      unknown = 0,
+      kept    = 1,
+      turned  = -1
+    };
+    std::vector<int>          state(mesh.cells.size(), unknown);
+    std::vector<unsigned int> reached = {0};
+    state[0]                          = kept;
+    for (unsigned int i = 0; i < reached.size(); ++i)
+      {
+        const unsigned int cell  = reached[i];
+        const auto        &nodes = mesh.cells[cell].nodes;
+        for (const auto &[ends, middle] :
+             CoarseCell::sides(mesh.n_corners(cell)))
+          {
+            (void)middle;
+            const unsigned int    a = nodes[ends[0]], b = nodes[ends[1]];
+            const MeshLine        line  = std::minmax(a, b);
+            const MeshSide *const other = neighbor(sides, line, cell);
+            if (other == nullptr)
+              continue;
+            // Neighbours of one orientation go along a side both ways.
+            const int wanted =
+              (other->forward != (a < b)) ? state[cell] : -state[cell];
+            if (state[other->cell] == unknown)
+              {
+                state[other->cell] = wanted;
+                reached.push_back(other->cell);
+              }
+            else if (state[other->cell] != wanted)
+              fail(mesh,
+                   "the cells can't be given one orientation: across " +
+                     describe(mesh, line) + " " + mesh.describe_cell(cell) +
+                     " and " + mesh.describe_cell(other->cell) +
+                     " have opposite ones, whichever way one goes round; a "
+                     "surface with one side only (a Moebius strip) isn't "
+                     "possible.");
+          }
+      }
+    const auto apart = std::find(state.begin(), state.end(), unknown);
+    if (apart != state.end())
+      fail(mesh,
+           "the mesh has several parts: " + mesh.describe_cell(0) + " and " +
+             mesh.describe_cell(apart - state.begin()) +
+             " aren't connected by common sides.");
+    const int    few      = 2 * std::count(state.begin(), state.end(), turned) >
+                        static_cast<std::ptrdiff_t>(state.size()) ?
+                              kept :
+                              turned;
+    unsigned int n_turned = 0, first = 0;
+    for (unsigned int k = 0; k < state.size(); ++k)
+      if (state[k] == few)
+        {
+          turn_over(mesh, k);
+          if (n_turned++ == 0)
+            first = k;
+        }
+    if (n_turned > 0)
+      mesh.notes.push_back(
+        std::to_string(n_turned) + " of " + std::to_string(state.size()) +
+        (n_turned == 1 ? " cells is" : " cells are") +
+        " turned over to the orientation of the others; the first is " +
+        mesh.describe_cell(first) + ".");
   }
 } // namespace Nacre

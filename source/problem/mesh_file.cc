@@ -25,7 +25,11 @@ namespace Nacre
   std::string
   MeshFile::describe_cell(const unsigned int cell) const
   {
-    return "cell " + std::to_string(cells[cell].number);
+    const Element    &element = cells[cell];
+    const std::string text    = "cell " + std::to_string(element.number);
+    return instances.empty() || instances[element.instance].empty() ?
+             text :
+             text + " of '" + instances[element.instance] + "'";
   }
 
 
@@ -83,35 +87,44 @@ namespace Nacre
         }
       return false;
     }
+
+    [[noreturn]] void
+    refuse_unknown_format(const std::string &path, std::string first)
+    {
+      for (char &c : first)
+        if (std::isprint(static_cast<unsigned char>(c)) == 0)
+          c = '?';
+      throw StandardExceptions::ExcMessage(
+        "The file '" + path +
+        "' isn't a mesh of a known format; it begins with '" + first +
+        "'. Known, as text: gmsh .msh 2.2 and 4.1 ($MeshFormat), "
+        "legacy VTK (# vtk DataFile), Abaqus .inp (*HEADING, *NODE), "
+        "UCD (five counts).");
+    }
   } // namespace
 
 
   MeshFile
-  read_mesh(const std::string &content, const std::string &path)
+  read_mesh(const InputFile &file, const OpenFile &open)
   {
-    MeshText    text(content, path);
-    const bool  empty = text.at_end();
-    std::string first = text.peek_line().substr(0, 60);
-    AssertThrow(!empty, ExcMessage("The mesh file '" + path + "' is empty."));
+    MeshText          text(file.content, file.path);
+    const bool        empty = text.at_end();
+    const std::string first = text.peek_line().substr(0, 60);
+    AssertThrow(!empty,
+                ExcMessage("The mesh file '" + file.path + "' is empty."));
+    refuse_other_formats(file);
+    MeshFile mesh;
     if (begins_with(first, "$"))
-      return read_gmsh_mesh(text);
-    if (begins_with(first, "# vtk"))
-      return read_vtk_mesh(text);
-    if (begins_with(first, "*"))
-      return read_abaqus_mesh(text);
-    if (looks_like_ucd(content))
-      return read_ucd_mesh(text);
-
-    for (char &c : first)
-      if (std::isprint(static_cast<unsigned char>(c)) == 0)
-        c = '?';
-    AssertThrow(false,
-                ExcMessage(
-                  "The file '" + path +
-                  "' isn't a mesh of a known format; it begins with '" + first +
-                  "'. Known, as text: gmsh .msh 2.2 and 4.1 ($MeshFormat), "
-                  "legacy VTK (# vtk DataFile), Abaqus .inp (*HEADING, *NODE), "
-                  "UCD (five counts)."));
-    return {};
+      mesh = read_gmsh_mesh(text);
+    else if (begins_with(first, "# vtk"))
+      mesh = read_vtk_mesh(text);
+    else if (begins_with(first, "*"))
+      mesh = read_abaqus_mesh(text, open);
+    else if (looks_like_ucd(file.content))
+      mesh = read_ucd_mesh(text);
+    else
+      refuse_unknown_format(file.path, first);
+    make_triangles_of_collapsed_cells(mesh);
+    return mesh;
   }
 } // namespace Nacre

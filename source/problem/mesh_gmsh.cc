@@ -4,8 +4,10 @@
 #include <nacre/base/text.h>
 #include <nacre/problem/mesh_reader.h>
 
+#include <array>
 #include <cstdlib>
 #include <set>
+#include <utility>
 
 namespace Nacre
 {
@@ -113,8 +115,6 @@ namespace Nacre
       std::string
       group_name(const int dim, const long long tag) const
       {
-        if (tag == 0)
-          return "";
         const auto found = names_.find({dim, tag});
         return found != names_.end() ? found->second : std::to_string(tag);
       }
@@ -131,21 +131,11 @@ namespace Nacre
               const long long tag = text_.integer("the number of an entity");
               for (unsigned int c = 0; c < (dim == 0 ? 3 : 6); ++c)
                 text_.number("a bound of the entity " + std::to_string(tag));
-              const auto  n_groups = text_.count("the number of groups");
-              std::string name;
+              const auto n_groups = text_.count("the number of groups");
+              // The sign is the direction of the curve in the group.
               for (std::size_t g = 0; g < n_groups; ++g)
-                {
-                  // The sign is the direction of the curve in the group.
-                  const std::string group =
-                    group_name(dim, std::abs(text_.integer("a group")));
-                  if (dim > 0 && !name.empty() && name != group)
-                    text_.fail("the entity " + std::to_string(tag) +
-                               " of dimension " + std::to_string(dim) +
-                               " is in two groups, '" + name + "' and '" +
-                               group + "'; one is possible.");
-                  name = group;
-                }
-              entity_groups_[{dim, tag}] = name;
+                entity_groups_[{dim, tag}].push_back(
+                  group_name(dim, std::abs(text_.integer("a group"))));
               if (dim > 0)
                 {
                   const auto n_bounding =
@@ -199,26 +189,45 @@ namespace Nacre
                      " nodes and holds " + std::to_string(n_read) + ".");
       }
 
+      /**
+       * An element of an entity in several groups stands once for each, one
+       * after the other, with numbers of their own.
+       */
       void
       read_elements_2()
       {
         const auto n = text_.count("the number of elements");
+        // Type, entity and nodes of the element before, and its group.
+        std::vector<long long>   before;
+        std::vector<std::string> groups_before;
         for (std::size_t i = 0; i < n; ++i)
           {
-            const std::string what   = which("element", i, n);
-            const long long   number = text_.integer(what);
-            const ElementKind kind   = to_kind(text_.integer(what), number);
-            const auto        n_tags = text_.count(what);
-            long long         group  = 0;
+            const std::string        what   = which("element", i, n);
+            const long long          number = text_.integer(what);
+            const long long          type   = text_.integer(what);
+            const ElementKind        kind   = to_kind(type, number);
+            const auto               n_tags = text_.count(what);
+            std::vector<std::string> groups;
+            long long                entity = 0;
             for (std::size_t t = 0; t < n_tags; ++t)
               {
                 const long long tag = text_.integer(what);
-                group               = t == 0 ? std::abs(tag) : group;
+                if (t == 0 && tag != 0)
+                  groups = {group_name(dimension(kind), std::abs(tag))};
+                entity = t == 1 ? tag : entity;
               }
-            builder_.add_element(number,
-                                 kind,
-                                 read_element_nodes(kind, what),
-                                 group_name(dimension(kind), group));
+            const auto             nodes   = read_element_nodes(kind, what);
+            std::vector<long long> current = {type, entity};
+            current.insert(current.end(), nodes.begin(), nodes.end());
+            // The sign of a group is the direction of the curve.
+            if (kind.shape == ElementShape::line && nodes[0] > nodes[1])
+              std::swap(current[2], current[3]);
+            if (current == before && groups != groups_before)
+              builder_.add_to_last_element(groups);
+            else
+              builder_.add_element(number, kind, nodes, groups);
+            before        = std::move(current);
+            groups_before = groups;
           }
       }
 
@@ -232,11 +241,11 @@ namespace Nacre
         std::size_t n_read = 0;
         for (std::size_t b = 0; b < n_blocks; ++b)
           {
-            const int  dim    = text_.integer("the dimension of an entity");
-            const auto tag    = text_.integer("the number of an entity");
-            const auto type   = text_.integer("the type of elements");
-            const auto n      = text_.count("the number of elements");
-            const auto entity = entity_groups_.find({dim, tag});
+            const int   dim    = text_.integer("the dimension of an entity");
+            const auto  tag    = text_.integer("the number of an entity");
+            const auto  type   = text_.integer("the type of elements");
+            const auto  n      = text_.count("the number of elements");
+            const auto &groups = entity_groups_[{dim, tag}];
             for (std::size_t i = 0; i < n; ++i)
               {
                 const std::string what = which("element", n_read++, n_elements);
@@ -245,9 +254,7 @@ namespace Nacre
                 builder_.add_element(number,
                                      kind,
                                      read_element_nodes(kind, what),
-                                     entity == entity_groups_.end() ?
-                                       "" :
-                                       entity->second);
+                                     groups);
               }
           }
         if (n_read != n_elements)
@@ -312,16 +319,16 @@ namespace Nacre
         unknown.shape = solid != solids.end() ? Shape::solid : Shape::other;
         unknown.name  = solid != solids.end() ? solid->second :
                                                 "gmsh " + std::to_string(type);
-        MeshBuilder(text_).add_element(number, unknown, {}, "");
+        MeshBuilder(text_).add_element(number, unknown, {}, {});
         return unknown;
       }
 
-      MeshText                  &text_;
-      MeshBuilder                builder_;
-      double                     version_ = 0.;
-      std::set<std::string>      found_;
-      std::map<Tag, std::string> names_;
-      std::map<Tag, std::string> entity_groups_;
+      MeshText                               &text_;
+      MeshBuilder                             builder_;
+      double                                  version_ = 0.;
+      std::set<std::string>                   found_;
+      std::map<Tag, std::string>              names_;
+      std::map<Tag, std::vector<std::string>> entity_groups_;
     };
   } // namespace
 

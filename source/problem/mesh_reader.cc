@@ -6,6 +6,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -65,17 +66,36 @@ namespace Nacre
 
 
   MeshText::MeshText(const std::string &content, const std::string &path)
-    : content_(content)
-    , path_(path)
-  {}
+  {
+    sources_.push_back({content, path});
+  }
+
+
+  MeshText::Source &
+  MeshText::source()
+  {
+    return sources_.back();
+  }
+
+
+  void
+  MeshText::include(InputFile file)
+  {
+    for (const Source &open : sources_)
+      if (open.path == file.path)
+        fail("the file '" + file.path + "' includes itself.");
+    included_.push_back(std::move(file));
+    sources_.push_back({included_.back().content, included_.back().path});
+  }
 
 
   void
   MeshText::skip_white_space()
   {
-    while (position_ < content_.size() && is_space(content_[position_]))
-      if (content_[position_++] == '\n')
-        ++line_;
+    Source &s = source();
+    while (s.position < s.content.size() && is_space(s.content[s.position]))
+      if (s.content[s.position++] == '\n')
+        ++s.line;
   }
 
 
@@ -83,14 +103,20 @@ namespace Nacre
   MeshText::at_end()
   {
     skip_white_space();
-    return position_ == content_.size();
+    while (sources_.size() > 1 && !has_line())
+      {
+        sources_.pop_back();
+        skip_white_space();
+      }
+    source().last_line = source().line;
+    return !has_line();
   }
 
 
   bool
   MeshText::has_line() const
   {
-    return position_ < content_.size();
+    return sources_.back().position < sources_.back().content.size();
   }
 
 
@@ -99,13 +125,13 @@ namespace Nacre
   {
     if (!has_line())
       fail("the file ends where " + what + " should be: it is truncated.");
-    const auto        end = content_.find('\n', position_);
-    const std::string text =
-      content_.substr(position_,
-                      end == std::string::npos ? end : end - position_);
-    position_ = end == std::string::npos ? content_.size() : end + 1;
-    if (end != std::string::npos)
-      ++line_;
+    Source           &s   = source();
+    const auto        end = s.content.find('\n', s.position);
+    const std::string text(s.content.substr(s.position, end - s.position));
+    const bool        is_last = end == std::string_view::npos;
+    s.position                = is_last ? s.content.size() : end + 1;
+    s.last_line               = s.line;
+    s.line += is_last ? 0 : 1;
     return Text::trim(text);
   }
 
@@ -114,10 +140,10 @@ namespace Nacre
   MeshText::peek_line()
   {
     skip_white_space();
-    const auto end = content_.find('\n', position_);
+    const Source &s   = source();
+    const auto    end = s.content.find('\n', s.position);
     return Text::trim(
-      content_.substr(position_,
-                      end == std::string::npos ? end : end - position_));
+      std::string(s.content.substr(s.position, end - s.position)));
   }
 
 
@@ -126,10 +152,11 @@ namespace Nacre
   {
     if (at_end())
       fail("the file ends where " + what + " should be: it is truncated.");
-    const auto begin = position_;
-    while (position_ < content_.size() && !is_space(content_[position_]))
-      ++position_;
-    return content_.substr(begin, position_ - begin);
+    Source    &s     = source();
+    const auto begin = s.position;
+    while (s.position < s.content.size() && !is_space(s.content[s.position]))
+      ++s.position;
+    return std::string(s.content.substr(begin, s.position - begin));
   }
 
 
@@ -196,19 +223,59 @@ namespace Nacre
   }
 
 
+  std::string
+  MeshText::where() const
+  {
+    return "The mesh file '" + sources_.back().path + "', line " +
+           std::to_string(sources_.back().last_line);
+  }
+
+
   void
   MeshText::fail(const std::string &text) const
   {
-    throw StandardExceptions::ExcMessage("The mesh file '" + path_ +
-                                         "', line " + std::to_string(line_) +
-                                         ": " + text);
+    throw StandardExceptions::ExcMessage(where() + ": " + text);
   }
 
 
   const std::string &
   MeshText::path() const
   {
-    return path_;
+    return sources_.front().path;
+  }
+
+
+  const std::string &
+  MeshText::source_path() const
+  {
+    return sources_.back().path;
+  }
+
+
+  void
+  MeshSets::add(const std::string &name, const unsigned int member)
+  {
+    const auto [entry, is_new] = indices_.emplace(name, sets_.size());
+    if (is_new)
+      sets_.push_back({name, {}});
+    sets_[entry->second].members.push_back(member);
+  }
+
+
+  std::vector<MeshFile::Set>
+  MeshSets::finish()
+  {
+    std::vector<MeshFile::Set> result;
+    for (MeshFile::Set &set : sets_)
+      {
+        auto &members = set.members;
+        std::sort(members.begin(), members.end());
+        members.erase(std::unique(members.begin(), members.end()),
+                      members.end());
+        if (!members.empty())
+          result.push_back(std::move(set));
+      }
+    return result;
   }
 
 
@@ -234,48 +301,41 @@ namespace Nacre
   }
 
 
+  std::optional<Point<3>>
+  MeshBuilder::find_node(const long long number) const
+  {
+    const auto found = node_indices_.find(number);
+    if (found == node_indices_.end())
+      return {};
+    return mesh_.nodes[found->second];
+  }
+
+
   void
-  MeshBuilder::add_element(const long long               number,
-                           const ElementKind            &kind,
-                           const std::vector<long long> &nodes,
-                           const std::string            &group)
+  MeshBuilder::add_element(const long long                 number,
+                           const ElementKind              &kind,
+                           const std::vector<long long>   &nodes,
+                           const std::vector<std::string> &sets)
   {
     const std::string element = "the element " + std::to_string(number) + " ";
     if (!is_known(kind))
       text_.fail(element + refusal(kind) + ".");
-    if (kind.shape == ElementShape::point)
-      return;
     if (nodes.size() != kind.n_nodes)
       text_.fail(element + "has " + std::to_string(nodes.size()) +
                  " nodes; its type " + kind.name + " has " +
                  std::to_string(kind.n_nodes) + ".");
-    if (!element_indices_.emplace(number, elements_.size()).second)
+    if (kind.shape != ElementShape::point &&
+        !element_indices_.emplace(number, elements_.size()).second)
       text_.fail(element + "stands twice.");
-    elements_.push_back({number, kind, nodes, group});
+    elements_.push_back({number, kind, nodes, sets});
   }
 
 
   void
-  MeshBuilder::add_node_set(const std::string            &name,
-                            const std::vector<long long> &nodes)
+  MeshBuilder::add_to_last_element(const std::vector<std::string> &sets)
   {
-    node_sets_.emplace_back(name, nodes);
-  }
-
-
-  void
-  MeshBuilder::set_group(const long long number, const std::string &group)
-  {
-    const auto found = element_indices_.find(number);
-    if (found == element_indices_.end())
-      text_.fail("the group '" + group + "' holds the element " +
-                 std::to_string(number) + ", which the file doesn't define.");
-    std::string &old = elements_[found->second].group;
-    if (!old.empty() && old != group)
-      text_.fail("the element " + std::to_string(number) +
-                 " is in two groups, '" + old + "' and '" + group +
-                 "'; one is possible.");
-    old = group;
+    auto &all = elements_.back().sets;
+    all.insert(all.end(), sets.begin(), sets.end());
   }
 
 
@@ -294,28 +354,40 @@ namespace Nacre
   MeshFile
   MeshBuilder::finish()
   {
-    for (const RawElement &raw : elements_)
+    MeshSets cell_sets, line_sets, node_sets;
+    for (RawElement &raw : elements_)
       {
         MeshFile::Element element;
         element.number    = raw.number;
-        element.group     = raw.group;
         const auto &order = node_order(raw.kind.shape);
         for (unsigned int i = 0; i < raw.nodes.size(); ++i)
           element.nodes.push_back(
             node_index(raw.nodes[order[i]],
                        "the element " + std::to_string(raw.number)));
-        (raw.kind.shape == ElementShape::line ? mesh_.lines : mesh_.cells)
-          .push_back(std::move(element));
+        if (raw.kind.shape == ElementShape::point)
+          {
+            for (const std::string &name : raw.sets)
+              node_sets.add(name, element.nodes[0]);
+            continue;
+          }
+        const bool is_line = raw.kind.shape == ElementShape::line;
+        auto      &home    = is_line ? mesh_.lines : mesh_.cells;
+        for (const std::string &name : raw.sets)
+          (is_line ? line_sets : cell_sets).add(name, home.size());
+        home.push_back(std::move(element));
       }
-    for (const auto &[name, numbers] : node_sets_)
-      {
-        MeshFile::NodeSet set;
-        set.name = name;
-        for (const long long number : numbers)
-          set.nodes.push_back(
-            node_index(number, "the set of nodes '" + name + "'"));
-        mesh_.node_sets.push_back(std::move(set));
-      }
+    mesh_.cell_sets = cell_sets.finish();
+    mesh_.line_sets = line_sets.finish();
+    mesh_.node_sets = node_sets.finish();
     return std::move(mesh_);
+  }
+
+
+  std::vector<std::string>
+  group_names(const long long group)
+  {
+    if (group == 0)
+      return {};
+    return {std::to_string(group)};
   }
 } // namespace Nacre

@@ -67,7 +67,7 @@ namespace Nacre
         builder.add_element(cell,
                             to_kind(type, nodes.size()),
                             nodes,
-                            group == 0 ? "" : std::to_string(group));
+                            group_names(group));
       }
     return builder.finish();
   }

@@ -246,7 +246,7 @@ namespace Nacre
             builder_.add_element(k,
                                  to_kind(cell.type, cell.points.size()),
                                  cell.points,
-                                 group == 0 ? "" : std::to_string(group));
+                                 group_names(group));
           }
       }
 

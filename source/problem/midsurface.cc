@@ -33,6 +33,28 @@ namespace Nacre
       return name;
     }
 
+    /** Without quotes; if it has none, without spaces that don't matter. */
+    std::string
+    plain_name(const std::string &name)
+    {
+      const std::string text  = Text::trim(name);
+      const std::string plain = Text::unquoted(text);
+      return plain == text ? without_spaces(plain) : plain;
+    }
+
+    /** Whether a plain_name() is a name of the surface. */
+    bool
+    is_same_name(const std::string &known,
+                 const std::string &plain,
+                 const bool         ignore_case)
+    {
+      if (ignore_case)
+        return is_same_name(Text::lower_case(known),
+                            Text::lower_case(plain),
+                            false);
+      return known == plain || without_spaces(known) == plain;
+    }
+
     std::string
     list_of_surfaces()
     {
@@ -362,8 +384,8 @@ namespace Nacre
   }
 
 
-  const std::vector<std::string> &
-  Midsurface::region_names() const
+  const MeshRegions &
+  Midsurface::regions() const
   {
     Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
     return surface_->regions();
@@ -378,29 +400,133 @@ namespace Nacre
   }
 
 
-  types::boundary_id
-  Midsurface::edge_id(const std::string &name, const std::string &where) const
+  bool
+  Midsurface::has_name(const unsigned int edge, const std::string &name) const
+  {
+    const SurfaceDescription::Edge &entry = surface_->edges()[edge];
+    const bool ignore_case                = surface_->edge_names().ignore_case;
+    if (is_same_name(entry.name, name, ignore_case))
+      return true;
+    return std::any_of(entry.aliases.begin(),
+                       entry.aliases.end(),
+                       [&](const std::string &alias) {
+                         return is_same_name(alias, name, ignore_case);
+                       });
+  }
+
+
+  void
+  Midsurface::use_edges(const std::vector<std::string> &names)
+  {
+    edges_in_use_.clear();
+    for (const std::string &name : names)
+      edges_in_use_.insert(plain_name(name));
+  }
+
+
+  bool
+  Midsurface::is_left(const unsigned int edge) const
+  {
+    const EdgeNames &names = surface_->edge_names();
+    return std::none_of(edges_in_use_.begin(),
+                        edges_in_use_.end(),
+                        [&](const std::string &used) {
+                          return !is_same_name(names.rest,
+                                               used,
+                                               names.ignore_case) &&
+                                 has_name(edge, used);
+                        });
+  }
+
+
+  std::vector<std::string>
+  Midsurface::known_edges() const
+  {
+    std::vector<std::string> known;
+    const auto               add = [&](const std::string &name) {
+      if (!name.empty() &&
+          std::find(known.begin(), known.end(), name) == known.end())
+        known.push_back(name);
+    };
+    for (const SurfaceDescription::Edge &edge : surface_->edges())
+      {
+        add(edge.name);
+        for (const std::string &alias : edge.aliases)
+          add(alias);
+      }
+    if (!surface_->edges().empty())
+      add(surface_->edge_names().rest);
+    return known;
+  }
+
+
+  std::string
+  Midsurface::unknown_edge(const std::string &name,
+                           const std::string &where) const
+  {
+    const EdgeNames               &names = surface_->edge_names();
+    const std::vector<std::string> known = known_edges();
+    if (known.empty())
+      return where + ": unknown edge '" + name + "': the surface '" +
+             Text::trim(surface_name_) + "' is closed and has no edges.";
+    std::string message = Text::unknown_name(where, "edge", name, known);
+    std::vector<std::string> others;
+    for (const auto &[other, why] : names.no_edges)
+      if (is_same_name(other, name, names.ignore_case))
+        return message + ' ' + why;
+      else
+        others.push_back(other);
+    const auto near = Text::nearest(name, others, 1);
+    if (!near.empty())
+      message += ' ' + names.no_edges.at(near.front());
+    return message;
+  }
+
+
+  std::set<types::boundary_id>
+  Midsurface::edge_ids(const std::string &name, const std::string &where) const
   {
     Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
 
-    const std::string        wanted = without_spaces(name);
-    std::vector<std::string> known;
+    const EdgeNames  &names  = surface_->edge_names();
+    const std::string wanted = plain_name(name);
+    const bool        rest   = !names.rest.empty() &&
+                      is_same_name(wanted, names.rest, names.ignore_case);
+    std::set<types::boundary_id> ids;
     for (unsigned int e = 0; e < surface_->edges().size(); ++e)
-      {
-        const SurfaceDescription::Edge &edge = surface_->edges()[e];
-        if (wanted == edge.name ||
-            std::find(edge.aliases.begin(), edge.aliases.end(), wanted) !=
-              edge.aliases.end())
-          return e;
-        known.push_back(edge.name);
-        known.insert(known.end(), edge.aliases.begin(), edge.aliases.end());
-      }
-    AssertThrow(!known.empty(),
-                ExcMessage(where + ": unknown edge '" + wanted +
-                           "': the surface '" + Text::trim(surface_name_) +
-                           "' is closed and has no edges."));
-    AssertThrow(false,
-                ExcMessage(Text::unknown_name(where, "edge", wanted, known)));
-    return numbers::invalid_boundary_id;
+      if (rest ? is_left(e) : has_name(e, wanted))
+        ids.insert(e);
+    AssertThrow(!rest || !ids.empty() || surface_->edges().empty(),
+                ExcMessage(where + ": no side is left for the edge '" + wanted +
+                           "'; other edges that are named hold the whole "
+                           "boundary."));
+    for (const auto &[other, why] : names.no_edges)
+      AssertThrow(!is_same_name(other, wanted, names.ignore_case),
+                  ExcMessage(unknown_edge(wanted, where)));
+    AssertThrow(!ids.empty(), ExcMessage(unknown_edge(wanted, where)));
+    return ids;
+  }
+
+
+  std::string
+  Midsurface::describe_side(const types::boundary_id id) const
+  {
+    const SurfaceDescription::Edge &edge = surface_->edges().at(id);
+    return edge.example.empty() ? "the edge '" + edge.name + "'" : edge.example;
+  }
+
+
+  std::vector<std::string>
+  Midsurface::notes() const
+  {
+    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
+
+    const EdgeNames         &names  = surface_->edge_names();
+    std::vector<std::string> result = surface_->notes();
+    for (const auto &[name, note] : names.notes)
+      for (const std::string &used : edges_in_use_)
+        if (is_same_name(name, used, names.ignore_case))
+          result.push_back(note);
+    return result;
   }
 } // namespace Nacre

@@ -111,10 +111,24 @@ namespace Nacre
   }
 
 
-  const std::vector<std::string> &
+  const EdgeNames &
+  ParametricSurface::edge_names() const
+  {
+    return description_.edge_names;
+  }
+
+
+  const MeshRegions &
   ParametricSurface::regions() const
   {
     return description_.regions;
+  }
+
+
+  const std::vector<std::string> &
+  ParametricSurface::notes() const
+  {
+    return description_.notes;
   }
 
 

@@ -105,6 +105,15 @@ namespace Nacre
   }
 
 
+  InputFile
+  SurfaceInput::file_beside(const std::string &name,
+                            const std::string &folder,
+                            const std::string &where) const
+  {
+    return read_input_file(files_.communicator, name, folder, where);
+  }
+
+
   std::string
   SurfaceInput::where(const std::string &parameter) const
   {

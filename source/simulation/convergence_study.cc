@@ -192,6 +192,12 @@ namespace Nacre
     problem_.set_goal(adaptive_.goal());
   }
 
+  std::vector<std::string>
+  ConvergenceStudy::notes() const
+  {
+    return problem_.midsurface().notes();
+  }
+
   std::string
   ConvergenceStudy::base_name() const
   {

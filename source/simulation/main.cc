@@ -203,12 +203,14 @@ namespace
       overrides = (*values)["set"].as<std::vector<std::string>>();
     Nacre::read_parameters(file, overrides);
     study.prepare(file);
+    Nacre::Log log(communicator, values->count("quiet") > 0);
+    for (const std::string &note : study.notes())
+      log.note(note);
     if (values->count("check") > 0)
       {
         out << file << ": no errors." << std::endl;
         return success;
       }
-    Nacre::Log log(communicator, values->count("quiet") > 0);
     const auto complaint =
       Nacre::BlasCheck::complaint(Nacre::BlasCheck::kernel(),
                                   Nacre::BlasCheck::processor());

@@ -124,7 +124,11 @@ namespace Nacre
         constants_[name] = value;
       }
     midsurface_.prepare(constants_);
-    section_->set_regions(midsurface_.region_names());
+    section_->set_regions(midsurface_.regions());
+    auto edges_in_use = boundary_conditions_.named_edges();
+    for (const std::string &name : loads_.named_edges())
+      edges_in_use.push_back(name);
+    midsurface_.use_edges(edges_in_use);
     boundary_conditions_.prepare(midsurface_, constants_);
     loads_.prepare(midsurface_, constants_);
     exact_solution_.prepare(constants_);

@@ -36,7 +36,10 @@ main(int argc, char **argv)
     0);
 
   LinearElasticSection &section = parameters.section;
-  section.set_regions({"", "left", "right"});
+  MeshRegions           regions;
+  for (const char *const name : {"left", "right"})
+    regions.regions.push_back({{name}, ""});
+  section.set_regions(regions);
   const MassTerms mass(discretization, section);
   check_below("total mass",
               std::abs(mass.total() - (0.3 * 2. + 0.1 * 7.)),

@@ -70,8 +70,11 @@ main()
     "set Regions = web: h = c*h, E = 2*E; flange: nu = 0.1, density = 3*x\n"
     "end\n");
   ParameterAcceptor::parse_all_parameters();
+  MeshRegions regions;
+  for (const char *const name : {"flange", "plain", "web"})
+    regions.regions.push_back({{name}, ""});
   section.prepare({{"c", 0.25}});
-  section.set_regions({"", "flange", "plain", "web"});
+  section.set_regions(regions);
   check_region(section, 0, 100., 0.3, 0.2, 5.);
   check_region(section, 1, 100., 0.1, 0.2, 6.);
   check_region(section, 2, 100., 0.3, 0.2, 5.);
@@ -79,7 +82,7 @@ main()
   std::cout << "thickness of a study" << std::endl;
   section.set_thickness(0.4);
   section.prepare({{"c", 0.25}});
-  section.set_regions({"", "flange", "plain", "web"});
+  section.set_regions(regions);
   check_region(section, 1, 100., 0.1, 0.4, 6.);
   check_region(section, 3, 200., 0.3, 0.1, 5.);
   return n_failures;

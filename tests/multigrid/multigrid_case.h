@@ -67,7 +67,7 @@ namespace MultigridTests
       for (const auto &constant : section.named_constants())
         constants.insert(constant);
       midsurface.prepare(constants);
-      section.set_regions(midsurface.region_names());
+      section.set_regions(midsurface.regions());
       conditions.prepare(midsurface, constants);
       loads.prepare(midsurface, constants);
       loads.set_time(0., 1.);

@@ -173,7 +173,11 @@ namespace
   SurfaceInput::Values
   values(const std::string &curvature)
   {
-    return {{"file", {{"File name", file_name}, {"Curvature", curvature}}},
+    return {{"file",
+             {{"File name", file_name},
+              {"Curvature", curvature},
+              {"Merge distance", "0"},
+              {"Slits", "refused"}}},
             {"cylinder",
              {{"Radius", "2"},
               {"Axis", "z"},
@@ -400,7 +404,7 @@ namespace
                                    2);
     double                    mismatch = 0.;
     std::vector<double>       edges(surface.edge_names().size(), 0.);
-    std::vector<unsigned int> n_cells(surface.region_names().size(), 0);
+    std::vector<unsigned int> n_cells(surface.regions().regions.size(), 0);
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned())
         {

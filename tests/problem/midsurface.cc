@@ -182,7 +182,8 @@ namespace
     gap        = std::max(gap, mismatch(*surface, *mesh, oriented));
     bool edges = (n_unnamed == 0 && lengths.size() == test.edges.size());
     for (unsigned int e = 0; edges && e < lengths.size(); ++e)
-      edges = surface->edge_id(test.edges[e].first, "test") == e &&
+      edges = surface->edge_ids(test.edges[e].first, "test") ==
+                std::set<types::boundary_id>{e} &&
               std::abs(lengths[e] - test.edges[e].second) < 1e-7;
 
     std::ostringstream text;
@@ -394,7 +395,7 @@ namespace
     std::string found = "no error";
     try
       {
-        make_surface(prm)->edge_id("u=0", "Edges");
+        make_surface(prm)->edge_ids("u=0", "Edges");
       }
     catch (const std::exception &error)
       {

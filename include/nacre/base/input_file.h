@@ -32,6 +32,14 @@ namespace Nacre
                   const std::string &name,
                   const std::string &folder,
                   const std::string &where);
+
+  /**
+   * The @p content of a file without the byte-order mark that some editors
+   * put in front. Throws for UTF-16, with the name of the @p file and the
+   * remedy.
+   */
+  std::string
+  without_byte_order_mark(const std::string &content, const std::string &file);
 } // namespace Nacre
 
 #endif

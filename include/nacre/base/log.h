@@ -33,15 +33,23 @@ namespace Nacre
     void
     warning(const std::string &text);
 
+    /** "nacre: note: text", likewise: what a user may want to know. */
+    void
+    note(const std::string &text);
+
     bool
     is_quiet() const;
 
   private:
+    /** Print @p line on std::cerr unless that was done before. */
+    void
+    tell_once(const std::string &line);
+
     bool                       quiet_;
     dealii::ConditionalOStream progress_;
     dealii::ConditionalOStream results_;
     dealii::ConditionalOStream errors_;
-    std::set<std::string>      warnings_;
+    std::set<std::string>      told_;
   };
 } // namespace Nacre
 

@@ -15,20 +15,61 @@ namespace Nacre::Text
   std::string
   trim(const std::string &text);
 
+  std::string
+  lower_case(std::string text);
+
   /**
-   * Split at @p separator wherever it stands outside parentheses, trim the
-   * parts; an empty text has no parts. `split("a, f(x, y)", ',')` gives
-   * {"a", "f(x, y)"}. An unbalanced parenthesis and an empty part throw a
-   * message that quotes @p where, the parameter that holds the text.
+   * Where @p what stands outside of parentheses and of "double quotes" for the
+   * first time from @p begin on, itself outside of them; or npos.
+   */
+  std::size_t
+  find(const std::string &text,
+       const std::string &what,
+       const std::size_t  begin = 0);
+
+  /**
+   * A name that may be in double quotes, without them: `"left, 5"" wide"` gives
+   * `left, 5" wide`. Other texts are trimmed.
+   */
+  std::string
+  unquoted(const std::string &text);
+
+  /**
+   * Split at @p separator wherever it stands outside of parentheses and double
+   * quotes, trim the parts; an empty text has no parts. `split("a, f(x, y)",
+   * ',')` gives {"a", "f(x, y)"}; quotes stay, see unquoted(). An unbalanced
+   * parenthesis or quote and an empty part throw a message that quotes
+   * @p where, the parameter that holds the text.
    */
   std::vector<std::string>
   split(const std::string &text,
         const char         separator,
         const std::string &where);
 
+  /** "name, name: value", as lists of conditions, loads and regions hold. */
+  struct Entry
+  {
+    /** As they stand there, in quotes if they are. */
+    std::vector<std::string> names;
+    std::string              value;
+    /** The whole, for messages. */
+    std::string text;
+  };
+
   /**
-   * Split "key = value" at the first '=' outside parentheses that isn't part
-   * of a comparison (==, <=, >=, !=). Without one, the value is empty and
+   * Split "name[, name]: value; ...". A missing colon or name throws; @p what
+   * says what is named, "edge", and @p form is an example for the message. A
+   * value may be empty.
+   */
+  std::vector<Entry>
+  entries(const std::string &text,
+          const std::string &where,
+          const std::string &what,
+          const std::string &form);
+
+  /**
+   * Split "key = value" at the first '=' outside of parentheses and quotes that
+   * isn't part of a comparison (==, <=, >=, !=). Without one, the value is empty and
    * `second` is "". Both sides are trimmed.
    */
   std::pair<std::string, std::string>

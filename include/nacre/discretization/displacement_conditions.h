@@ -60,6 +60,7 @@ namespace Nacre
     /** A node on a boundary edge, as one of its cells sees it. */
     struct EdgeNode
     {
+      /** EdgeConditions::edge */
       types::boundary_id                            id;
       std::array<types::global_dof_index, spacedim> dofs;
       Point<spacedim>                               position;
@@ -139,7 +140,10 @@ namespace Nacre
 
     /** By the node's first dof, the same on all ranks. */
     std::map<types::global_dof_index, Node> nodes_;
-    /** Unit normals of the planes that hold symmetry and diaphragm edges. */
+    /**
+     * Unit normals of the planes that hold symmetry and diaphragm edges, by
+     * EdgeConditions::edge.
+     */
     std::map<types::boundary_id, Vector3> planes_;
     /** Rotation axes t at X where t . omega is prevented. */
     std::vector<Vector3> rotation_axes_;

@@ -64,7 +64,7 @@ namespace Nacre
     named_constants() const override;
 
     void
-    set_regions(const std::vector<std::string> &names) override;
+    set_regions(const MeshRegions &mesh) override;
 
     double
     thickness(const SectionPoint &point) const override;
@@ -86,6 +86,12 @@ namespace Nacre
 
     void
     prepare_regions(const Constants &constants);
+
+    void
+    add_region_item(Region            &region,
+                    const std::string &item,
+                    const std::string &where,
+                    const Constants   &known) const;
 
     /** The region's own expression named @p key, or nothing. */
     const Expression *

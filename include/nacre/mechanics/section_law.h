@@ -4,6 +4,7 @@
 #ifndef nacre_mechanics_section_law_h
 #define nacre_mechanics_section_law_h
 
+#include <nacre/base/mesh_region.h>
 #include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/base/types.h>
@@ -74,15 +75,16 @@ namespace Nacre
     named_constants() const = 0;
 
     /**
-     * Tell the section the names of the mesh's regions; the index is the
-     * region() of a point, and the name 0 is empty. Called after prepare().
-     * Throws if the section has values for a region that isn't there. Sections
-     * that are the same everywhere need not care.
+     * Tell the section the mesh's regions; the index is the region() of a
+     * point, and region 0 has no name. A name may stand for several regions,
+     * and a region may have several names. Called after prepare(). Throws if
+     * the section has values for a region that isn't there, or for two names
+     * of one region. Sections that are the same everywhere need not care.
      */
     virtual void
-    set_regions(const std::vector<std::string> &names)
+    set_regions(const MeshRegions &mesh)
     {
-      (void)names;
+      (void)mesh;
     }
 
     /** Thickness (length) at @p point; throws if it isn't positive. */

@@ -53,6 +53,11 @@ namespace Nacre
      * conormal; null where the moment is prescribed (natural).
      */
     std::unique_ptr<Expression> rotation;
+    /** One of the edge's boundary ids, the same here for all of them. */
+    types::boundary_id edge = numbers::invalid_boundary_id;
+    /** The edge's name and the conditions as texts, for messages. */
+    std::string              name;
+    std::vector<std::string> items;
   };
 
   /** Components prescribed at the node at a point. */
@@ -76,6 +81,10 @@ namespace Nacre
     void
     prepare(const Midsurface &midsurface, const Constants &constants);
 
+    /** The edges that have conditions, as the parameter names them. */
+    std::vector<std::string>
+    named_edges() const;
+
     /** Evaluate all values at @p time and multiply them by @p factor. */
     void
     set_time(const double time, const double factor);
@@ -91,6 +100,13 @@ namespace Nacre
     condition_names();
 
   private:
+    /** Conditions of the edge @p name on all of its boundary ids. */
+    void
+    add_edge(const Midsurface               &midsurface,
+             const std::string              &name,
+             const std::vector<std::string> &items,
+             const Constants                &constants);
+
     void
     add_edge_item(EdgeConditions    &conditions,
                   const std::string &item,

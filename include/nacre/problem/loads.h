@@ -36,6 +36,10 @@ namespace Nacre
     void
     prepare(const Midsurface &midsurface, const Constants &constants);
 
+    /** The edges that have loads, as the parameters name them. */
+    std::vector<std::string>
+    named_edges() const;
+
     /** Evaluate all loads at @p time and multiply them by @p factor. */
     void
     set_time(const double time, const double factor);

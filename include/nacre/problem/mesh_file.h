@@ -4,17 +4,25 @@
 #ifndef nacre_problem_mesh_file_h
 #define nacre_problem_mesh_file_h
 
+#include <nacre/base/input_file.h>
 #include <nacre/base/types.h>
 
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Nacre
 {
-  /** A surface mesh as a file describes it. */
+  /**
+   * A surface mesh as a file describes it. A cell, a line, a side and a node
+   * may be in any number of named sets; a set that no parameter names has no
+   * meaning. Sets are in the order of the file, names are unique among the
+   * sets of one kind, members are sorted and unique.
+   */
   struct MeshFile
   {
-    /** A cell, or a line of the boundary. */
+    /** A cell, or a line. */
     struct Element
     {
       /** The file's number of it. */
@@ -24,32 +32,61 @@ namespace Nacre
        * centre) or 9. Lines: the ends, and the middle if there is one.
        */
       std::vector<unsigned int> nodes;
-      /** The name of its group, or empty. */
-      std::string group;
+      /** Index into instances, if there are any. */
+      unsigned int instance = 0;
     };
 
-    /** A named set of nodes, which stands for the boundary lines between. */
-    struct NodeSet
+    /** A named set of cells, of lines or of nodes. */
+    struct Set
     {
       std::string               name;
-      std::vector<unsigned int> nodes;
+      std::vector<unsigned int> members;
+    };
+
+    /** A named set of sides of cells. */
+    struct SideSet
+    {
+      std::string name;
+      /**
+       * Cell and side. The file counts the sides of a cell counterclockwise,
+       * side s from its corner s to s + 1: that is CoarseCell::sides()[s], as
+       * long as nobody has turned the cell over.
+       */
+      std::vector<std::pair<unsigned int, unsigned int>> sides;
     };
 
     /** For messages. */
     std::string path;
 
     std::vector<Point<3>> nodes;
-    /** The file's numbers of the nodes. */
+    /** The file's numbers of the nodes; those of two instances may agree. */
     std::vector<long long> node_numbers;
     std::vector<Element>   cells;
     std::vector<Element>   lines;
-    std::vector<NodeSet>   node_sets;
+
+    /** Regions. */
+    std::vector<Set> cell_sets;
+    std::vector<Set> line_sets;
+    /** A set of nodes stands for the boundary lines between them. */
+    std::vector<Set>     node_sets;
+    std::vector<SideSet> side_sets;
+    /** Whether "ROOT" and "Root" are one name, as in Abaqus. */
+    bool names_ignore_case = false;
+
+    /** Names of the instances of parts, where there are several. */
+    std::vector<std::string> instances;
+
+    /**
+     * What the reader left out or changed, a sentence each: "3 elements of
+     * the type B31 (beams) are left out, with their stiffness."
+     */
+    std::vector<std::string> notes;
 
     /** "node 17 at (0, 0.5, 1)" */
     std::string
     describe_node(const unsigned int node) const;
 
-    /** "cell 17" */
+    /** "cell 17", or "cell 17 of 'Plate-1'" where there are instances. */
     std::string
     describe_cell(const unsigned int cell) const;
 
@@ -66,46 +103,24 @@ namespace Nacre
   };
 
   /**
-   * The mesh in a file's @p content; the format is recognised by the content:
-   * gmsh .msh 2 and 4.1, VTK legacy, Abaqus .inp, UCD (AVS), as text. Throws
-   * an ExcMessage with @p path and the line for what isn't in the format, and
+   * How to read a file that a mesh file includes: its name, relative to the
+   * folder of the file that includes it or to the current one, that folder,
+   * and the place that names it, for messages. All ranks call it.
+   */
+  using OpenFile = std::function<InputFile(const std::string &name,
+                                           const std::string &folder,
+                                           const std::string &where)>;
+
+  /**
+   * The mesh in a @p file; the format is recognised by the content: gmsh .msh
+   * 2 and 4.1, VTK legacy, Abaqus .inp, UCD (AVS), as text. Throws an
+   * ExcMessage with the path and the line for what isn't in the format, and
    * with the number of the element or node for solid cells, cells of higher
    * degree, nodes that aren't defined or are twice, coordinates that aren't
    * finite.
    */
   MeshFile
-  read_mesh(const std::string &content, const std::string &path);
-
-  /** The boundary of a mesh that has passed check_mesh(). */
-  struct MeshBoundary
-  {
-    struct Line
-    {
-      /** Indices of the end nodes. */
-      unsigned int first;
-      unsigned int second;
-      /** Index into names. */
-      unsigned int edge;
-    };
-
-    /** Names of the groups in the order of the file; then "boundary". */
-    std::vector<std::string> names;
-    std::vector<Line>        lines;
-  };
-
-  /**
-   * Check a mesh and turn cells over until all have one orientation, that of
-   * the greater part of the cells; find its boundary.
-   *
-   * Throws an ExcMessage with the numbers of the cells or nodes for: no cells,
-   * cells of several kinds, a node twice in a cell or in no cell, two nodes at
-   * one place, a cell that stands twice, degenerate or folded cells, middles far off their sides,
-   * sides shared by three cells, sides whose middles differ, one-sided
-   * surfaces, unconnected parts, lines that aren't on the boundary or in two
-   * groups.
-   */
-  MeshBoundary
-  check_mesh(MeshFile &mesh);
+  read_mesh(const InputFile &file, const OpenFile &open);
 } // namespace Nacre
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef nacre_problem_midsurface_h
 #define nacre_problem_midsurface_h
 
+#include <nacre/base/mesh_region.h>
 #include <nacre/base/types.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -60,7 +62,7 @@ namespace Nacre
     /**
      * The mesh of the mid-surface of cells like @p reference_cell, refined
      * @p n_refinements times, with the boundary ids of edge_names() and the
-     * material ids of region_names(): quadrilaterals on p4est, triangles on a
+     * material ids of regions(): quadrilaterals on p4est, triangles on a
      * mesh that all ranks know. Triangles of a file can't be quadrilaterals:
      * that throws.
      */
@@ -77,26 +79,63 @@ namespace Nacre
     position(const Triangulation<dim, spacedim>::cell_iterator &cell,
              const Point<dim>                                  &unit) const;
 
-    /** Names of the boundary edges; the index is the boundary id. */
+    /** A name of the sides of each boundary id, which is the index. */
     const std::vector<std::string> &
     edge_names() const;
 
     /**
-     * The boundary id of the edge @p name; an unknown name throws and lists
-     * the near ones. @p where is the parameter that mentions it.
+     * Tell the names of the edges that conditions and loads use, in double
+     * quotes or not: the edge 'boundary' of a mesh file is what they leave.
+     * Called after prepare(), before edge_ids().
      */
-    types::boundary_id
-    edge_id(const std::string &name, const std::string &where) const;
+    void
+    use_edges(const std::vector<std::string> &names);
 
-    /** Names of the regions of cells; the first is empty: no region. */
-    const std::vector<std::string> &
-    region_names() const;
+    /**
+     * The boundary ids of the edge @p name, which may be in double quotes: a
+     * side of the boundary may have several names, and an id stands for the
+     * sides of one combination of names. An unknown name throws and lists the
+     * near ones. @p where is the parameter that mentions it.
+     */
+    std::set<types::boundary_id>
+    edge_ids(const std::string &name, const std::string &where) const;
+
+    /** A side of the boundary with the boundary id @p id, for messages. */
+    std::string
+    describe_side(const types::boundary_id id) const;
+
+    /** The regions of cells, by material id; the first has no name. */
+    const MeshRegions &
+    regions() const;
+
+    /**
+     * What a run should tell about the surface and its edges in use, a sentence
+     * each.
+     */
+    std::vector<std::string>
+    notes() const;
 
     /** Whether the coarse cells are triangles. */
     bool
     has_triangles() const;
 
   private:
+    /** Whether the edge number @p edge of the surface has the @p name. */
+    bool
+    has_name(const unsigned int edge, const std::string &name) const;
+
+    /** Whether no name in use but that of the rest holds the edge. */
+    bool
+    is_left(const unsigned int edge) const;
+
+    /** Names of the edges, then that of the rest, in the order of the file. */
+    std::vector<std::string>
+    known_edges() const;
+
+    /** The message for a @p name that is no edge. */
+    std::string
+    unknown_edge(const std::string &name, const std::string &where) const;
+
     /** Write where the mesh file is into the parameters, for used.prm. */
     void
     fix_file_name() const;
@@ -119,6 +158,8 @@ namespace Nacre
     /** How each coarse quadrilateral is cut for triangles. */
     std::vector<unsigned int> diagonals_;
     std::vector<std::string>  edge_names_;
+    /** Names of the edges that conditions and loads use. */
+    std::set<std::string> edges_in_use_;
   };
 } // namespace Nacre
 

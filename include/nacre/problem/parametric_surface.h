@@ -4,6 +4,7 @@
 #ifndef nacre_problem_parametric_surface_h
 #define nacre_problem_parametric_surface_h
 
+#include <nacre/base/mesh_region.h>
 #include <nacre/base/types.h>
 
 #include <array>
@@ -55,6 +56,19 @@ namespace Nacre
     return std::make_unique<const Map>(std::move(function));
   }
 
+  /** What the names of edges mean beyond those of single edges. */
+  struct EdgeNames
+  {
+    /** The name of the sides that no name in use holds; empty: none. */
+    std::string rest = {};
+    /** Whether "ROOT" and "Root" are one name. */
+    bool ignore_case = false;
+    /** Sets of the file that are no edges, and why, in a sentence. */
+    std::map<std::string, std::string> no_edges = {};
+    /** What is to be noted about an edge if a parameter names it. */
+    std::map<std::string, std::string> notes = {};
+  };
+
   /**
    * A surface as its makers describe it: coarse cells with the charts of
    * their corners, the map of the chart to space, and the boundary edges.
@@ -75,17 +89,19 @@ namespace Nacre
        * closed surface has another chart in each cell.
        */
       std::vector<Point<3>> chart = std::vector<Point<3>>(4);
-      /** Index into the names of the regions. */
+      /** Index into the regions. */
       unsigned int region = 0;
     };
 
-    /** A named part of the boundary. */
+    /** A part of the boundary with a name and others for the same part. */
     struct Edge
     {
       std::string              name;
       std::vector<std::string> aliases;
       /** Whether a chart point lies on this edge. */
       std::function<bool(const Point<3> &chart)> contains;
+      /** "the side between the nodes 1 and 2"; empty but for mesh files. */
+      std::string example = {};
     };
 
     /** A line by its end vertices, the smaller first. */
@@ -100,8 +116,8 @@ namespace Nacre
      * Edge::contains; for mesh files.
      */
     std::map<Line, unsigned int> edge_of_line;
-    /** Names of the regions of cells; the first means no region. */
-    std::vector<std::string> regions{""};
+    EdgeNames                    edge_names = {};
+    MeshRegions                  regions    = {};
     /**
      * Whether the maker knows that no cell is degenerate and that cells meet,
      * where finding out here would be dear.
@@ -109,6 +125,8 @@ namespace Nacre
     bool is_checked = false;
     /** What messages call a cell: "cell 17 of 'roof.msh'"; may be empty. */
     std::vector<std::string> cell_names;
+    /** What a run should tell about the surface, a sentence each. */
+    std::vector<std::string> notes;
   };
 
   /**
@@ -169,9 +187,15 @@ namespace Nacre
     const std::vector<BoundaryLine> &
     boundary_lines() const;
 
-    /** Names of the regions; the index is SurfaceDescription::Cell::region. */
-    const std::vector<std::string> &
+    const EdgeNames &
+    edge_names() const;
+
+    /** The index of a region is SurfaceDescription::Cell::region. */
+    const MeshRegions &
     regions() const;
+
+    const std::vector<std::string> &
+    notes() const;
 
   private:
     /** A line of a coarse cell as seen from that cell. */

@@ -65,6 +65,12 @@ namespace Nacre
     InputFile
     file(const std::string &parameter) const;
 
+    /** A file that another one in @p folder names: read_input_file(). */
+    InputFile
+    file_beside(const std::string &name,
+                const std::string &folder,
+                const std::string &where) const;
+
     /** The full name of a parameter of this surface, or of its subsection. */
     std::string
     where(const std::string &parameter = "") const;

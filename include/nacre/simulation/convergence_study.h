@@ -40,6 +40,10 @@ namespace Nacre
     void
     prepare(const std::string &prm_file);
 
+    /** What a user may want to know about the input, a sentence each. */
+    std::vector<std::string>
+    notes() const;
+
     /**
      * Solve all cases; writes the table after each of them, so that nothing is
      * lost if one fails.
