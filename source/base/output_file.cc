@@ -57,7 +57,21 @@ namespace Nacre
     std::error_code error;
     {
       std::ofstream out(temporary);
-      write(out);
+      try
+        {
+          write(out);
+        }
+      catch (const std::exception &)
+        {
+          // Writers complain of a stream that fails, each in its own words:
+          // ours follow. All else is not the file's matter.
+          if (out.good())
+            {
+              out.close();
+              std::filesystem::remove(temporary, error);
+              throw;
+            }
+        }
       out.close();
       if (!out.good())
         {

@@ -33,6 +33,13 @@ namespace Nacre
     void
     warning(const std::string &text);
 
+    /** Different warnings so far. */
+    unsigned int
+    n_warnings() const
+    {
+      return warnings_.size();
+    }
+
     bool
     is_quiet() const;
 
