@@ -202,10 +202,13 @@ namespace Nacre
       }
     run_on_all_ranks(communicator_, [&]() {
       write_file(slot_file(slot_, rank_), [&](std::ostream &out) {
-        boost::archive::binary_oarchive archive(out);
+        // An archive writes past the stream, which wouldn't notice a full disk.
+        std::ostringstream              content;
+        boost::archive::binary_oarchive archive(content);
         archive &layout                &copy.problem;
         numbers_of(archive, copy);
         CellValues(discretization_).write(archive, ghosted);
+        out << content.str();
       });
     });
     // All slots' files are complete: point to them.
