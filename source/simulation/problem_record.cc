@@ -31,8 +31,6 @@ namespace Nacre
     {
       static const std::vector<std::string> names = {
         "Title",
-        "Study/Name",
-        "Study/Output folder",
         "Study/Write VTU",
         "Study/Output format",
         "Study/Ranks per VTU file",
@@ -155,6 +153,9 @@ namespace Nacre
   {
     ProblemRecord record;
     record.parameters = parameter_values();
+    // Where the files are is no part of the problem.
+    record.parameters.erase("Study/Name");
+    record.parameters.erase("Study/Output folder");
     if (Text::trim(record.parameters["Mid-surface/Surface"]) == "file")
       record.mesh_file =
         fingerprint(read_input_file(communicator,
