@@ -509,8 +509,15 @@ namespace Nacre
          << (!has_fields             ? ")" :
              field_format_ == "hdf5" ? ", .xdmf)" :
                                        ", .pvd)")
-         << '\n'
-         << paths << "Solved: " << rows.size()
+         << '\n';
+    if (has_fields)
+      text << "Fields: " << base_name() << "_pP_rR"
+           << (thicknesses_.size() > 1 ? "_hH" : "")
+           << (penalties_.size() > 1 ? "_etaETA" : "")
+           << (adaptive_.is_on() ? "_cCYCLE" : "")
+           << (field_format_ == "hdf5" ? ".h5" : ".vtu") << ", " << rows.size()
+           << (rows.size() == 1 ? " solution" : " solutions") << '\n';
+    text << paths << "Solved: " << rows.size()
          << (problem_.is_linear() ? " linear system" : " path")
          << (rows.size() == 1 ? " of " : "s of up to ")
          << std::max_element(rows.begin(),
@@ -520,8 +527,6 @@ namespace Nacre
                              })
               ->dofs
          << " dofs";
-    if (has_fields)
-      text << ", fields of " << (rows.size() == 1 ? "it" : "all");
     text << ", " << n_warnings << (n_warnings == 1 ? " warning" : " warnings");
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;

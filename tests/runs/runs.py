@@ -542,8 +542,9 @@ def names_of_fields(folder):
     check(re.findall('file="([^"]*)"', folder.read("case.pvd")) == names
           and all(folder.exists(name) for name in names),
           folder.read("case.pvd"))
-    check("Solved: 4 linear systems of up to 1911 dofs, fields of all, "
-          "0 warnings" in text, text)
+    check("Fields: output/case_pP_rR.vtu, 4 solutions\n"
+          "Solved: 4 linear systems of up to 1911 dofs, 0 warnings\n" in text,
+          text)
     folder.succeed("case.prm", Analysis__Type="linear",
                    Study__Thicknesses="0.01, 0.02",
                    Study__Penalties="default, 12.5")
