@@ -26,7 +26,7 @@ namespace Nacre
   }
 
   PathState
-  PathAnalysis::initial_state() const
+  PathAnalysis::initial_state(const MotionState *start) const
   {
     PathState state;
     state.next_step = parameters_.time_step;
@@ -36,11 +36,15 @@ namespace Nacre
     motion.u            = system_.owned_vector();
     motion.v            = motion.u;
     motion.a            = motion.u;
+    if (start != nullptr)
+      motion.u = start->u;
     if (parameters_.type != AnalysisType::dynamic)
       return state;
 
-    motion.u = system_.interpolate(parameters_.initial_displacement);
-    motion.v = system_.interpolate(parameters_.initial_velocity);
+    motion.u += system_.interpolate(parameters_.initial_displacement);
+    if (start != nullptr)
+      motion.v = start->v;
+    motion.v += system_.interpolate(parameters_.initial_velocity);
     system_.constraints().distribute(motion.u);
     motion.a = system_.acceleration(motion.u,
                                     motion.v,
@@ -56,17 +60,13 @@ namespace Nacre
   {
     if (state.step == 0)
       observer(state);
-    const double end       = parameters_.end_time;
-    const double tolerance = 1e-10 * parameters_.time_step;
-    while (state.time < end - tolerance)
+    const TimeGrid grid = parameters_.time_grid();
+    while (!grid.is_end(state.time))
       {
-        // The last two steps share what is left.
-        const double left = end - state.time;
-        double       dt   = std::min(state.next_step, left);
-        if (dt < left && left - dt < 1e-3 * dt)
-          dt = left;
-        const bool search  = (parameters_.line_search == LineSearch::always);
-        Attempt    attempt = try_step(state, dt, search);
+        const double end     = grid.next(state.time, state.next_step);
+        const double dt      = end - state.time;
+        const bool   search  = (parameters_.line_search == LineSearch::always);
+        Attempt      attempt = try_step(state, dt, search);
         if (!attempt.result.converged &&
             parameters_.line_search == LineSearch::automatic)
           {
@@ -75,8 +75,8 @@ namespace Nacre
               attempt = std::move(again);
           }
         std::ostringstream text;
-        text << "step " << state.step + 1 << " to t = " << state.time + dt
-             << ": " << attempt.result.reason;
+        text << "step " << state.step + 1 << " to t = " << end << ": "
+             << attempt.result.reason;
         if (!attempt.result.converged)
           {
             state.next_step    = 0.5 * dt;
@@ -98,8 +98,8 @@ namespace Nacre
             continue;
           }
         ++state.step;
-        state.time   = std::abs(left - dt) <= tolerance ? end : state.time + dt;
-        state.motion = std::move(attempt.motion);
+        state.time              = end;
+        state.motion            = std::move(attempt.motion);
         state.load_factor       = system_.load_factor();
         state.iterations        = attempt.result.iterations;
         state.residual          = attempt.result.last.residual;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/path_parameters.h>
+#include <nacre/base/text.h>
 
 #include <algorithm>
 
@@ -34,6 +35,13 @@ namespace Nacre
                   "'Discretization/Kinematics'.",
                   prm,
                   Patterns::Selection("linear|static|relaxation|dynamic"));
+    add_parameter("Start from",
+                  start_from,
+                  "Another run's last checkpoint, 'output/NAME', whose "
+                  "displacements, and in dynamics velocities, are the start of "
+                  "this path at t = 0: on the same mesh, under any loads, "
+                  "supports, section and Type. A relative name starts from the "
+                  "current folder. Empty: the undeformed shell at rest.");
     add_parameter("Load factor",
                   load_factor_text_,
                   "Factor of all loads and prescribed values, an expression of "
@@ -45,16 +53,24 @@ namespace Nacre
     add_parameter(
       "Time step",
       time_step_text_,
-      "First step. A step that fails is halved; after two good ones "
-      "it grows again. Units: as End time.");
+      "Steps end at its multiples. A step that fails is halved; after two "
+      "good ones it grows again, and the path is back on the multiples. "
+      "Units: as End time.");
     add_parameter("Minimum time step",
                   minimum_time_step_text_,
                   "A step that would become smaller ends the run; default: "
                   "Time step/1000. Units: as End time.");
     add_parameter("Maximum time step",
                   maximum_time_step_text_,
-                  "Steps that converge easily grow up to here; default: Time "
-                  "step. Units: as End time.");
+                  "Steps that converge easily grow up to here, and leave "
+                  "multiples of Time step out; default: Time step. Units: as "
+                  "End time.");
+    add_parameter("Output times",
+                  output_times_text_,
+                  "'t1, t2, ...': steps end at these times, too, exactly, and "
+                  "the fields are written, if the study writes VTU; in statics "
+                  "with the default Load factor these are load levels. Units: "
+                  "as End time.");
     add_parameter("Maximum iterations",
                   newton.max_iterations,
                   "Newton iterations of a step.",
@@ -112,14 +128,16 @@ namespace Nacre
                   Patterns::Double(0.));
     add_parameter("Initial displacement",
                   initial_displacement_text_,
-                  "Along x, y, z, expressions of x, y, z. Units: length.");
+                  "In dynamics, along x, y, z, expressions of x, y, z; added "
+                  "to the displacement of Start from. Units: length.");
     add_parameter("Initial velocity",
                   initial_velocity_text_,
-                  "Along x, y, z, expressions of x, y, z. Units: length/time.");
+                  "In dynamics, along x, y, z, expressions of x, y, z; added "
+                  "to the velocity of Start from. Units: length/time.");
     add_parameter("VTU steps",
                   vtu_steps,
                   "Write the fields every so many steps, if the study writes "
-                  "VTU; 0: of the last one only.");
+                  "VTU; 0: of the last one and of the Output times only.");
     add_parameter("Checkpoint steps",
                   checkpoint_steps,
                   "Save the state every so many steps, for 'nacre FILE "
@@ -153,6 +171,13 @@ namespace Nacre
                              "Analysis/Load factor",
                              constants,
                              "x,y,z,t");
+    prepare_times(constants);
+    prepare_start(constants);
+  }
+
+  void
+  PathParameters::prepare_times(const Constants &constants)
+  {
     end_time  = positive(end_time_text_, "End time", constants);
     time_step = positive(time_step_text_, "Time step", constants);
     minimum_time_step =
@@ -171,11 +196,39 @@ namespace Nacre
                 ExcMessage("Analysis/Maximum time step: '" +
                            maximum_time_step_text_ +
                            "' is smaller than the time step."));
+    output_times.clear();
+    for (const auto &text :
+         Text::split(output_times_text_, ',', "Analysis/Output times"))
+      {
+        output_times.push_back(positive(text, "Output times", constants));
+        AssertThrow(output_times.back() <= end_time,
+                    ExcMessage("Analysis/Output times: '" + text +
+                               "' is later than the End time '" +
+                               end_time_text_ + "'."));
+      }
+  }
+
+  void
+  PathParameters::prepare_start(const Constants &constants)
+  {
     initial_displacement = VectorExpression(initial_displacement_text_,
                                             "Analysis/Initial displacement",
                                             constants);
     initial_velocity     = VectorExpression(initial_velocity_text_,
                                         "Analysis/Initial velocity",
                                         constants);
+    const std::pair<const char *, const VectorExpression *> motions[] = {
+      {"Initial displacement", &initial_displacement},
+      {"Initial velocity", &initial_velocity}};
+    for (const auto &[name, motion] : motions)
+      AssertThrow(type == AnalysisType::dynamic || motion->is_zero(),
+                  ExcMessage(std::string("Analysis/") + name +
+                             ": Type = " + type_text_ +
+                             " doesn't use it; choose 'Type = dynamic', or "
+                             "leave it out."));
+    start_from = Text::trim(start_from);
+    AssertThrow(type != AnalysisType::linear || start_from.empty(),
+                ExcMessage("Analysis/Start from: Type = linear solves from "
+                           "the undeformed shell; choose another Type."));
   }
 } // namespace Nacre

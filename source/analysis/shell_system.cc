@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/shell_system.h>
+#include <nacre/base/cpu_timer.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/solvers/direct_solver.h>
 
@@ -191,17 +192,21 @@ namespace Nacre
     Vector       right_hand_side = owned_vector();
     if (can_keep_tangent(constraints, u))
       {
+        const CpuSum time(assembly_seconds_);
         energies_ = shell_operator_.residual(ghosted, right_hand_side, inertia);
         right_hand_side *= -1.;
         condense(constraints, right_hand_side);
       }
     else
       {
-        energies_ = shell_operator_.assemble(ghosted,
-                                             constraints,
-                                             matrix_,
-                                             right_hand_side,
-                                             inertia);
+        {
+          const CpuSum time(assembly_seconds_);
+          energies_ = shell_operator_.assemble(ghosted,
+                                               constraints,
+                                               matrix_,
+                                               right_hand_side,
+                                               inertia);
+        }
         solver_.prepare({matrix_, constraints, &ghosted});
         has_tangent_ = true;
       }
@@ -228,7 +233,8 @@ namespace Nacre
   {
     // du fulfils the homogeneous constraints up to what is still prescribed:
     // the free part of r . du is that of the condensed residual.
-    Vector residual = owned_vector();
+    const CpuSum time(assembly_seconds_);
+    Vector       residual = owned_vector();
     shell_operator_.residual(with_ghosts(u), residual, inertia);
     Vector free(du);
     for (const auto &line : constraints().get_lines())

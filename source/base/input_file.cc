@@ -7,6 +7,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -48,6 +49,22 @@ namespace Nacre
       return {found, without_byte_order_mark(content.str(), found)};
     }
   } // namespace
+
+
+  std::string
+  fingerprint(const std::string &content)
+  {
+    // Fowler, Noll and Vo's hash, FNV-1a of 64 bits
+    std::uint64_t hash = 14695981039346656037u;
+    for (const unsigned char byte : content)
+      {
+        hash ^= byte;
+        hash *= 1099511628211u;
+      }
+    std::ostringstream text;
+    text << std::hex << hash;
+    return text.str();
+  }
 
 
   InputFile

@@ -29,20 +29,21 @@ namespace Nacre
     return results_;
   }
 
-  void
+  bool
   Log::tell_once(const std::string &line)
   {
     if (!told_.insert(line).second)
-      return;
+      return false;
     // Keep the order of the two streams on a terminal.
     std::cout << std::flush;
     errors_ << line << std::endl;
+    return true;
   }
 
   void
   Log::warning(const std::string &text)
   {
-    tell_once("nacre: warning: " + text);
+    n_warnings_ += tell_once("nacre: warning: " + text) ? 1 : 0;
   }
 
   void

@@ -5,8 +5,10 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 
@@ -20,6 +22,12 @@ namespace Nacre
     temporary_name(const std::filesystem::path &file)
     {
       return file.string() + ".part" + std::to_string(getpid());
+    }
+
+    std::string
+    disk_full(const std::string &file)
+    {
+      return "Writing '" + file + "' failed: is the disk full?";
     }
   } // namespace
 
@@ -57,14 +65,26 @@ namespace Nacre
     std::error_code error;
     {
       std::ofstream out(temporary);
-      write(out);
+      try
+        {
+          write(out);
+        }
+      catch (const std::exception &)
+        {
+          // Writers complain of a stream that fails, each in its own words:
+          // ours follow. All else is not the file's matter.
+          if (out.good())
+            {
+              out.close();
+              std::filesystem::remove(temporary, error);
+              throw;
+            }
+        }
       out.close();
       if (!out.good())
         {
           std::filesystem::remove(temporary, error);
-          AssertThrow(false,
-                      ExcMessage("Writing '" + file +
-                                 "' failed: is the disk full?"));
+          AssertThrow(false, ExcMessage(disk_full(file)));
         }
     }
     std::filesystem::rename(temporary, path, error);
@@ -76,5 +96,20 @@ namespace Nacre
                     ExcMessage("'" + file + "' can't be written: " + reason +
                                "."));
       }
+  }
+
+
+  void
+  check_space(const std::string &file, const std::size_t bytes)
+  {
+    const std::string temporary = temporary_name(file).string();
+    const int descriptor = open(temporary.c_str(), O_CREAT | O_WRONLY, 0600);
+    AssertThrow(descriptor >= 0, ExcMessage(disk_full(file)));
+    const int error = posix_fallocate(descriptor, 0, bytes);
+    close(descriptor);
+    unlink(temporary.c_str());
+    // Other errors say that the file system knows no reservation.
+    AssertThrow(error != ENOSPC && error != EFBIG && error != EDQUOT,
+                ExcMessage(disk_full(file)));
   }
 } // namespace Nacre

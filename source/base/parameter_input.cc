@@ -158,6 +158,18 @@ namespace Nacre
                              allowed_values(*pattern) + "."));
     }
 
+    void
+    collect_values(const Tree                         &section,
+                   const std::string                  &path,
+                   std::map<std::string, std::string> &values)
+    {
+      for (const auto &[name, child] : section)
+        if (is_parameter(child))
+          values[path + name] = *property(child, "value");
+        else
+          collect_values(child, path + name + "/", values);
+    }
+
     /** Checks a file line by line as ParameterHandler would read it. */
     class FileScanner
     {
@@ -424,6 +436,15 @@ namespace Nacre
         static_cast<ParameterHandler::OutputStyle>(ParameterHandler::ShortPRM |
                                                    declaration_order));
     });
+  }
+
+
+  std::map<std::string, std::string>
+  parameter_values()
+  {
+    std::map<std::string, std::string> values;
+    collect_values(declared_parameters(), "", values);
+    return values;
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/base/output_file.h>
 #include <nacre/postprocess/hdf5_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -122,6 +123,8 @@ namespace Nacre
         }
       catch (const ExceptionBase &)
         {
+          std::error_code not_there;
+          std::filesystem::remove(part, not_there);
           AssertThrow(false,
                       ExcMessage("'" + path.string() +
                                  "' can't be written: is the disk full?"));
@@ -141,9 +144,14 @@ namespace Nacre
              const std::string   &base,
              const double         time)
   {
-    const std::string file = base + ".h5";
-    const auto        path = std::filesystem::path(folder) / file;
-    const std::string part = path.string() + ".part";
+    const std::string file  = base + ".h5";
+    const auto        path  = std::filesystem::path(folder) / file;
+    const std::string part  = path.string() + ".part";
+    std::size_t       bytes = 0;
+    for (const auto &patch : shell_fields.get_patches())
+      bytes += patch.data.n_elements() * sizeof(double);
+    bytes = Utilities::MPI::sum(bytes, communicator);
+    run_on_root(communicator, [&]() { check_space(path.string(), bytes); });
     // deal.II's writer fails on ranks without cells.
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
     const bool         has_cells = !shell_fields.get_patches().empty();

@@ -526,8 +526,7 @@ namespace Nacre
                    const TrilinosWrappers::MPI::Vector &ghosted_displacement,
                    const std::string                   &folder,
                    const std::string                   &name,
-                   const unsigned int                   counter,
-                   const double                         time,
+                   const Entry                         &entry,
                    const std::vector<double>           &error_indicators)
   {
     const MPI_Comm communicator = discretization.communicator();
@@ -541,23 +540,22 @@ namespace Nacre
                                              error_indicators,
                                              options_.n_subdivisions);
     });
-    const std::string base    = name + "_" + std::to_string(counter);
+    const std::string base    = name + "_" + entry.label;
     const std::string all     = path_of(folder, name);
     const bool        is_hdf5 = (options_.format == FieldFormat::hdf5);
     FieldRecords     &records = records_[all];
-    records[counter]          = {time,
-                        is_hdf5 ?
-                                   write_hdf5(*fields,
-                                     communicator,
-                                     discretization.element().reference_cell(),
-                                     folder,
-                                     base,
-                                     time) :
-                                   write_vtu_files(*fields,
-                                          Groups(discretization,
-                                                 options_.ranks_per_file),
-                                          folder,
-                                          base)};
+    records[entry.counter]    = {
+         entry.time,
+      is_hdf5 ? write_hdf5(*fields,
+                           communicator,
+                           discretization.element().reference_cell(),
+                           folder,
+                           base,
+                           entry.time) :
+                   write_vtu_files(*fields,
+                                Groups(discretization, options_.ranks_per_file),
+                                folder,
+                                base)};
     run_on_root(communicator, [&] {
       if (is_hdf5)
         {
@@ -566,8 +564,8 @@ namespace Nacre
           return;
         }
       std::vector<std::pair<double, std::string>> times;
-      for (const auto &entry : records)
-        times.push_back(entry.second);
+      for (const auto &record : records)
+        times.push_back(record.second);
       write_file(all + ".pvd", [&](std::ostream &out) {
         DataOutBase::write_pvd_record(out, times);
       });

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace Nacre
 {
@@ -28,7 +29,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 2";
+    const std::string layout = "nacre checkpoint 3";
 
     std::array<Vector *, 3>
     vectors_of(CheckpointData &data)
@@ -57,7 +58,8 @@ namespace Nacre
     using CellIterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
     explicit CellValues(const Discretization &discretization)
-      : dof_handler_(discretization.dof_handler())
+      : discretization_(discretization)
+      , dof_handler_(discretization.dof_handler())
       , owned_(discretization.locally_owned_dofs())
       , dofs_(dof_handler_.get_fe().n_dofs_per_cell())
     {
@@ -78,6 +80,8 @@ namespace Nacre
           {
             for (const unsigned int part : cell->id().to_binary<dim>())
               keys.push_back(part);
+            for (const auto &x : discretization_.node_positions(cell))
+              values.insert(values.end(), x.begin_raw(), x.end_raw());
             cell->get_dof_indices(dofs_);
             for (const Vector &vector : vectors)
               for (const auto dof : dofs_)
@@ -87,7 +91,10 @@ namespace Nacre
       archive &n_dofs &keys &values;
     }
 
-    /** Take the values of those cells that are this rank's. */
+    /**
+     * Take the values of those cells that are this rank's. Throws what is wrong
+     * with @p file.
+     */
     template <typename Archive>
     void
     read(Archive                       &archive,
@@ -99,11 +106,12 @@ namespace Nacre
       std::vector<double>       values;
       archive &n_dofs &keys    &values;
       CellId::binary_type       key;
-      const std::size_t         n_cells = keys.size() / key.size();
-      AssertThrow(n_dofs == dofs_.size() &&
-                    values.size() == n_cells * vectors.size() * n_dofs,
-                  ExcMessage("--restart: '" + file +
-                             "' is of another element."));
+      const std::size_t         n_cells  = keys.size() / key.size();
+      const std::size_t         n_values = (1 + vectors.size()) * n_dofs;
+      AssertThrow(n_dofs == dofs_.size() && values.size() == n_cells * n_values,
+                  ExcMessage(file + "' is of another element: " +
+                             std::to_string(n_dofs) + " unknowns a cell, and " +
+                             std::to_string(dofs_.size()) + " here."));
       for (std::size_t k = 0; k < n_cells; ++k)
         {
           std::copy_n(keys.begin() + k * key.size(), key.size(), key.begin());
@@ -111,7 +119,9 @@ namespace Nacre
           if (found == missing_.end())
             continue;
           found->second->get_dof_indices(dofs_);
-          auto value = values.begin() + k * vectors.size() * n_dofs;
+          auto value = values.begin() + k * n_values;
+          check_positions(found->second, &*value, file);
+          value += n_dofs;
           for (Vector *const vector : vectors)
             for (const auto dof : dofs_)
               {
@@ -130,6 +140,28 @@ namespace Nacre
     }
 
   private:
+    /** Throw if the nodes of the @p cell don't lie at the @p coordinates. */
+    void
+    check_positions(const CellIterator &cell,
+                    const double       *coordinates,
+                    const std::string  &file) const
+    {
+      // Positions depend on the number of ranks by rounding only.
+      const double tolerance = 1e-6 * cell->diameter();
+      for (const auto &x : discretization_.node_positions(cell))
+        {
+          Point<spacedim> other;
+          for (unsigned int c = 0; c < spacedim; ++c)
+            other[c] = *coordinates++;
+          std::ostringstream message;
+          message << file << "' is of another mesh: a node lies at (" << other
+                  << ") there, and at (" << x << ") here.";
+          AssertThrow(x.distance(other) <= tolerance,
+                      ExcMessage(message.str()));
+        }
+    }
+
+    const Discretization                       &discretization_;
     const DoFHandler<dim, spacedim>            &dof_handler_;
     const IndexSet                             &owned_;
     std::vector<types::global_dof_index>        dofs_;
@@ -139,11 +171,11 @@ namespace Nacre
 
   Checkpoint::Checkpoint(const Discretization &discretization,
                          const std::string    &base_name,
-                         const std::string    &problem)
+                         const std::string    &where)
     : discretization_(discretization)
     , communicator_(discretization.communicator())
     , base_name_(base_name)
-    , problem_(problem)
+    , where_(where)
     , rank_(Utilities::MPI::this_mpi_process(communicator_))
     , n_ranks_(Utilities::MPI::n_mpi_processes(communicator_))
   {}
@@ -170,10 +202,13 @@ namespace Nacre
       }
     run_on_all_ranks(communicator_, [&]() {
       write_file(slot_file(slot_, rank_), [&](std::ostream &out) {
-        boost::archive::binary_oarchive archive(out);
-        archive &layout                &problem_;
+        // An archive writes past the stream, which wouldn't notice a full disk.
+        std::ostringstream              content;
+        boost::archive::binary_oarchive archive(content);
+        archive &layout                &copy.problem;
         numbers_of(archive, copy);
         CellValues(discretization_).write(archive, ghosted);
+        out << content.str();
       });
     });
     // All slots' files are complete: point to them.
@@ -193,49 +228,55 @@ namespace Nacre
     std::ifstream     in(record);
     unsigned int      step = 0;
     AssertThrow(in,
-                ExcMessage("--restart: there is no checkpoint '" + record +
+                ExcMessage(where_ + ": there is no checkpoint '" + record +
                            "'. 'Analysis/Checkpoint steps' tells when one is "
                            "written."));
     in >> slot_ >> step >> n_writers;
     AssertThrow(in && slot_ < 2 && n_writers > 0,
-                ExcMessage("--restart: '" + record + "' is damaged."));
+                ExcMessage(where_ + ": '" + record + "' is damaged."));
   }
 
   void
   Checkpoint::read_file(const unsigned int writer,
                         CheckpointData    &data,
-                        CellValues        &values) const
+                        CellValues        &values,
+                        const Judge       &judge) const
   {
     const std::string file = slot_file(slot_, writer);
     std::ifstream     in(file, std::ios::binary);
-    AssertThrow(in, ExcMessage("--restart: '" + file + "' can't be read."));
+    AssertThrow(in, ExcMessage(where_ + ": '" + file + "' can't be read."));
     try
       {
         boost::archive::binary_iarchive archive(in);
-        std::string                     found_layout, problem;
+        std::string                     found_layout;
         archive                        &found_layout;
         AssertThrow(found_layout == layout,
-                    ExcMessage("--restart: '" + file +
-                               "' was written by another version of nacre."));
-        archive &problem;
-        AssertThrow(problem == problem_,
-                    ExcMessage("--restart: the checkpoint '" + base_name_ +
+                    ExcMessage(where_ + ": '" + file +
+                               "' was written by another version of nacre ('" +
+                               found_layout + "' instead of '" + layout +
+                               "'): go on with that version, or start anew."));
+        archive          &data.problem;
+        const std::string complaint = judge(data.problem);
+        AssertThrow(complaint.empty(),
+                    ExcMessage(where_ + ": the checkpoint '" + base_name_ +
                                ".checkpoint' is of another problem: " +
-                               problem + " instead of " + problem_ + "."));
+                               complaint + "."));
         numbers_of(archive, data);
-        values.read(archive, vectors_of(data), file);
+        values.read(archive, vectors_of(data), where_ + ": '" + file);
       }
     catch (const boost::archive::archive_exception &error)
       {
         AssertThrow(false,
-                    ExcMessage("--restart: '" + file +
+                    ExcMessage(where_ + ": '" + file +
                                "' is damaged: " + error.what() + "."));
       }
   }
 
   void
-  Checkpoint::load(CheckpointData &data)
+  Checkpoint::load(CheckpointData &data, const Judge &judge)
   {
+    for (Vector *const vector : vectors_of(data))
+      vector->reinit(discretization_.locally_owned_dofs(), communicator_);
     run_on_all_ranks(communicator_, [&]() {
       unsigned int n_writers = 0;
       read_record(n_writers);
@@ -256,10 +297,10 @@ namespace Nacre
           // A rank without cells needs the numbers of the path, too.
           if (values.is_complete() && writer != writers.front())
             break;
-          read_file(writer, data, values);
+          read_file(writer, data, values, judge);
         }
       AssertThrow(values.is_complete(),
-                  ExcMessage("--restart: the checkpoint '" + base_name_ +
+                  ExcMessage(where_ + ": the checkpoint '" + base_name_ +
                              ".checkpoint' is of another mesh: it lacks cells "
                              "of this one."));
     });

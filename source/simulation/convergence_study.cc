@@ -12,7 +12,9 @@
 #include <nacre/simulation/convergence_study.h>
 #include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/path_monitor.h>
+#include <nacre/simulation/path_start.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -205,16 +207,83 @@ namespace Nacre
   }
 
   void
-  ConvergenceStudy::prepare_output() const
+  ConvergenceStudy::prepare_output(const bool keeps_results) const
   {
     run_on_root(communicator_, [&]() {
       create_folder(output_folder_);
       // A run that fails must not leave an older one's results.
       std::error_code not_there;
-      for (const auto *const ending : {".csv", ".txt", ".tex", ".pvd", ".xdmf"})
-        std::filesystem::remove(base_name() + ending, not_there);
+      if (!keeps_results)
+        for (const auto *const ending :
+             {".csv", ".txt", ".tex", ".pvd", ".xdmf"})
+          std::filesystem::remove(base_name() + ending, not_there);
       write_used_parameters(base_name() + ".used.prm");
     });
+  }
+
+  void
+  ConvergenceStudy::check_restart(const bool        restart,
+                                  const std::size_t n_cases) const
+  {
+    AssertThrow(!restart || (n_cases == 1 && !problem_.is_linear()),
+                ExcMessage("--restart: only a study of one case with an "
+                           "'Analysis/Type' other than linear can go on; this "
+                           "one has " +
+                           std::to_string(n_cases) + "."));
+  }
+
+  void
+  ConvergenceStudy::set_up_case(Log &log)
+  {
+    problem_.set_up(log);
+    for (const auto &quantity : quantities_.quantities())
+      if (quantity.goal.load)
+        quantity.goal.load(problem_.discretization());
+  }
+
+  void
+  ConvergenceStudy::check(Log &log, const bool restart)
+  {
+    const auto cases = make_cases();
+    check_restart(restart, cases.size());
+    for (const auto &shell_case : cases)
+      {
+        prepare_case(shell_case);
+        set_up_case(log);
+        problem_.check_integrands();
+        if (problem_.is_linear())
+          continue;
+        const std::string base    = path_base(path_name(cases, shell_case));
+        const auto        problem = current_problem(communicator_);
+        Checkpoint        checkpoint(problem_.discretization(), base);
+        load_state(problem, base, restart, checkpoint, log);
+      }
+  }
+
+  std::string
+  ConvergenceStudy::label(const ShellCase &shell_case) const
+  {
+    std::string text = "p" + std::to_string(shell_case.degree) + "_r" +
+                       std::to_string(shell_case.n_refinements);
+    if (thicknesses_.size() > 1)
+      text += "_h" + in_text(*shell_case.thickness, 6);
+    if (penalties_.size() > 1)
+      text +=
+        "_eta" + (shell_case.eta ? in_text(*shell_case.eta, 4) : "default");
+    return text;
+  }
+
+  std::string
+  ConvergenceStudy::path_name(const std::vector<ShellCase> &cases,
+                              const ShellCase              &shell_case) const
+  {
+    return cases.size() == 1 ? name_ : name_ + "_" + label(shell_case);
+  }
+
+  std::string
+  ConvergenceStudy::path_base(const std::string &name) const
+  {
+    return (std::filesystem::path(output_folder_) / name).string();
   }
 
   ResultsTable::Row
@@ -279,52 +348,68 @@ namespace Nacre
             n_subdivisions_};
   }
 
-  void
+  std::optional<CheckpointData>
+  ConvergenceStudy::load_state(const ProblemRecord &problem,
+                               const std::string   &base,
+                               const bool           restart,
+                               Checkpoint          &checkpoint,
+                               Log                 &log) const
+  {
+    const auto &path = problem_.path_parameters();
+    warn_of_load_factor(path, problem, log);
+    if (restart)
+      return load_restart(path, problem, checkpoint, log);
+    if (!path.start_from.empty())
+      return load_start(path, problem, problem_.discretization(), base, log);
+    return {};
+  }
+
+  std::string
   ConvergenceStudy::follow_path(const std::string &name,
                                 const bool         restart,
                                 Log               &log)
   {
-    CheckpointData data;
-    data.state = problem_.start_path(log);
-
-    const auto        &path  = problem_.path_parameters();
-    const auto        &shell = problem_.discretization();
-    std::ostringstream problem;
-    problem << problem_.element_name() << " cells of degree " << shell.degree()
-            << ", " << shell.dof_handler().n_dofs() << " dofs";
-    const std::string base =
-      (std::filesystem::path(output_folder_) / name).string();
-    Checkpoint  checkpoint(shell, base, problem.str());
-    PathMonitor monitor(communicator_,
+    const auto         &path    = problem_.path_parameters();
+    const ProblemRecord problem = current_problem(communicator_);
+    const std::string   base    = path_base(name);
+    Checkpoint          checkpoint(problem_.discretization(), base);
+    PathMonitor         monitor(communicator_,
                         {output_folder_,
-                         name,
-                         field_options(),
-                         write_vtu_,
-                         report_seconds_,
-                         path.vtu_steps,
-                         path.checkpoint_steps,
-                         path.end_time},
+                                 name,
+                                 field_options(),
+                                 write_vtu_,
+                                 report_seconds_,
+                                 path.vtu_steps,
+                                 path.checkpoint_steps,
+                                 path.time_grid()},
                         quantities_,
                         checkpoint,
                         log);
+    const auto data = load_state(problem, base, restart, checkpoint, log);
+    PathState  state;
     if (restart)
       {
-        checkpoint.load(data);
-        monitor.resume(data);
-        log.progress() << "restart from step " << data.state.step
-                       << ", t = " << data.state.time << std::endl;
+        // A restart that is refused leaves all files as they were.
+        prepare_output(true);
+        monitor.resume(*data, problem);
+        state = data->state;
       }
     else
-      run_on_root(communicator_, [&]() { checkpoint.remove(); });
+      {
+        state = problem_.start_path(data ? &data->state.motion : nullptr);
+        run_on_root(communicator_, [&]() { checkpoint.remove(); });
+        monitor.start(problem);
+      }
 
     const std::string failure = problem_.follow_path(
-      data.state,
-      [&](const PathState &state, const SolvedShell &solved) {
-        monitor.observe(state, solved);
+      state,
+      [&](const PathState &step, const SolvedShell &solved) {
+        monitor.observe(step, solved);
       },
       log);
-    monitor.finish(data.state, problem_.solution());
+    monitor.finish(state, problem_.solution());
     AssertThrow(failure.empty(), ExcMessage(failure));
+    return monitor.summary();
   }
 
   void
@@ -336,6 +421,7 @@ namespace Nacre
   {
     for (unsigned int cycle = 0; cycle <= adaptive_.n_cycles(); ++cycle)
       {
+        set_up_case(log);
         problem_.solve(log);
         auto          row = make_row(shell_case);
         ErrorEstimate estimate;
@@ -355,6 +441,9 @@ namespace Nacre
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
 
         const SolvedShell &shell = problem_.solution();
+        const std::string  name =
+          label(shell_case) +
+          (adaptive_.is_on() ? "_c" + std::to_string(cycle) : "");
         if (write_vtu_)
           vtu_output.write(shell.discretization,
                            shell.section,
@@ -362,7 +451,7 @@ namespace Nacre
                            shell.displacement,
                            output_folder_,
                            name_,
-                           counter,
+                           {counter, double(counter), name},
                            estimate.indicators);
         if (cycle == adaptive_.n_cycles())
           return;
@@ -377,12 +466,9 @@ namespace Nacre
   ConvergenceStudy::run(Log &log, const bool restart)
   {
     const auto cases = make_cases();
-    AssertThrow(!restart || (cases.size() == 1 && !problem_.is_linear()),
-                ExcMessage("--restart: only a study of one case with an "
-                           "'Analysis/Type' other than linear can go on; this "
-                           "one has " +
-                           std::to_string(cases.size()) + "."));
-    prepare_output();
+    check_restart(restart, cases.size());
+    if (!restart)
+      prepare_output(false);
     std::vector<ResultsTable::Quantity> columns;
     for (const auto &quantity : quantities_.quantities())
       columns.push_back({quantity.name,
@@ -392,6 +478,8 @@ namespace Nacre
       columns.push_back(column);
     ResultsTable table(heading_.title, columns);
     VtuOutput    vtu_output(field_options());
+    std::string  paths;
+    const auto   n_warnings = log.n_warnings();
 
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
@@ -403,24 +491,51 @@ namespace Nacre
             solve_cycles(cases[k], progress, table, vtu_output, log);
             continue;
           }
-        follow_path(cases.size() == 1 ? name_ : name_ + "_" + std::to_string(k),
-                    restart,
-                    log);
+        set_up_case(log);
+        paths += follow_path(path_name(cases, cases[k]), restart, log) + '\n';
         table.add_row(make_row(cases[k]));
         log.progress() << progress << progress_line(table.rows().back())
                        << std::endl;
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
       }
+    print_results(table, paths, log.n_warnings() - n_warnings, log);
+  }
 
+  void
+  ConvergenceStudy::print_results(const ResultsTable &table,
+                                  const std::string  &paths,
+                                  const unsigned int  n_warnings,
+                                  Log                &log) const
+  {
+    const bool         has_fields = write_vtu_ && problem_.is_linear();
+    const auto        &rows       = table.rows();
     std::ostringstream text;
     table.write_text(text, report_seconds_);
+    text << "\nResults: " << base_name() << ".csv (.txt, .tex"
+         << (!has_fields             ? ")" :
+             field_format_ == "hdf5" ? ", .xdmf)" :
+                                       ", .pvd)")
+         << '\n';
+    if (has_fields)
+      text << "Fields: " << base_name() << "_pP_rR"
+           << (thicknesses_.size() > 1 ? "_hH" : "")
+           << (penalties_.size() > 1 ? "_etaETA" : "")
+           << (adaptive_.is_on() ? "_cCYCLE" : "")
+           << (field_format_ == "hdf5" ? ".h5" : ".vtu") << ", " << rows.size()
+           << (rows.size() == 1 ? " solution" : " solutions") << '\n';
+    text << paths << "Solved: " << rows.size()
+         << (problem_.is_linear() ? " linear system" : " path")
+         << (rows.size() == 1 ? " of " : "s of up to ")
+         << std::max_element(rows.begin(),
+                             rows.end(),
+                             [](const auto &a, const auto &b) {
+                               return a.dofs < b.dofs;
+                             })
+              ->dofs
+         << " dofs";
+    text << ", " << n_warnings << (n_warnings == 1 ? " warning" : " warnings");
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
-    log.results() << text.str() << "\nResults: " << base_name()
-                  << ".csv (.txt, .tex"
-                  << (!write_vtu_             ? ")" :
-                      field_format_ == "hdf5" ? ", .xdmf)" :
-                                                ", .pvd)")
-                  << std::endl;
+    log.results() << text.str() << std::endl;
   }
 } // namespace Nacre

@@ -17,6 +17,7 @@
 #  include <malloc.h>
 #endif
 
+#include <csignal>
 #include <iostream>
 #include <optional>
 
@@ -37,7 +38,9 @@ namespace
       options::value<std::vector<std::string>>()->composing()->value_name(
         "\"Section/Parameter=value\""),
       "another value than the file's; repeatable");
-    description.add_options()("check", "check the parameter file, run nothing");
+    description.add_options()("check",
+                              "check the parameter file and all that a run "
+                              "needs before it solves");
     description.add_options()("template",
                               "print a parameter file of all defaults, with "
                               "documentation and units");
@@ -178,6 +181,19 @@ namespace
 #endif
   }
 
+  /**
+   * A file that outgrows the limit of the shell (ulimit -f) is an error of
+   * writing, as on a full disk, not the end without a word that the signal's
+   * default would be.
+   */
+  void
+  let_writing_fail()
+  {
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN);
+#endif
+  }
+
   int
   run(const int argc, char **argv)
   {
@@ -203,11 +219,14 @@ namespace
       overrides = (*values)["set"].as<std::vector<std::string>>();
     Nacre::read_parameters(file, overrides);
     study.prepare(file);
-    Nacre::Log log(communicator, values->count("quiet") > 0);
+    const bool restart    = values->count("restart") > 0;
+    const bool only_check = values->count("check") > 0;
+    Nacre::Log log(communicator, only_check || values->count("quiet") > 0);
     for (const std::string &note : study.notes())
       log.note(note);
-    if (values->count("check") > 0)
+    if (only_check)
       {
+        study.check(log, restart);
         out << file << ": no errors." << std::endl;
         return success;
       }
@@ -216,7 +235,7 @@ namespace
                                   Nacre::BlasCheck::processor());
     if (!complaint.empty())
       log.warning(complaint);
-    study.run(log, values->count("restart") > 0);
+    study.run(log, restart);
     return success;
   }
 } // namespace
@@ -226,6 +245,7 @@ int
 main(int argc, char **argv)
 {
   give_freed_memory_back();
+  let_writing_fail();
   // One thread for each rank.
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // The library of threads reads the process' memory map at its first task:

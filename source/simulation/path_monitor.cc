@@ -29,33 +29,65 @@ namespace Nacre
   {}
 
   std::string
-  PathMonitor::csv_file() const
+  PathMonitor::file(const std::string &ending) const
   {
-    return (std::filesystem::path(options_.folder) /
-            (options_.name + "_path.csv"))
+    return (std::filesystem::path(options_.folder) / (options_.name + ending))
       .string();
   }
 
-  void
-  PathMonitor::resume(const CheckpointData &data)
+  std::string
+  PathMonitor::csv_header() const
   {
-    written_    = data;
-    start_time_ = data.state.time;
+    std::string header =
+      "step,time,load_factor,iterations,residual,negative_pivots";
+    for (const auto &quantity : quantities_.quantities())
+      header += ',' + quantity.name;
+    return header;
+  }
+
+  void
+  PathMonitor::start(const ProblemRecord &problem)
+  {
+    written_         = CheckpointData();
+    written_.problem = problem;
+  }
+
+  void
+  PathMonitor::resume(const CheckpointData &data, const ProblemRecord &problem)
+  {
+    written_         = data;
+    written_.problem = problem;
+    start_step_      = data.state.step;
     vtu_output_.resume(options_.folder, options_.name, data.written_fields);
-    // Rows after the checkpoint will be written again.
+    const bool same_quantities =
+      !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {
-      std::ifstream      in(csv_file());
+      // Rows after the checkpoint will be written again.
+      std::ifstream      in(file("_path.csv"));
+      std::string        header, line;
       std::ostringstream kept;
-      std::string        line;
+      std::getline(in, header);
       while (std::getline(in, line))
-        {
-          const auto step = std::strtoul(line.c_str(), nullptr, 10);
-          if (kept.str().empty() || step <= data.state.step)
-            kept << line << '\n';
-        }
+        if (std::strtoul(line.c_str(), nullptr, 10) <= data.state.step)
+          kept << line << '\n';
       in.close();
-      write_file(csv_file(), [&](std::ostream &out) { out << kept.str(); });
+      const bool goes_on = same_quantities && header == csv_header();
+      if (!goes_on && !kept.str().empty())
+        {
+          earlier_rows_ =
+            file("_path_until_" + std::to_string(data.state.step) + ".csv");
+          write_file(earlier_rows_, [&](std::ostream &out) {
+            out << header << '\n' << kept.str();
+          });
+        }
+      write_file(file("_path.csv"), [&](std::ostream &out) {
+        out << csv_header() << '\n' << (goes_on ? kept.str() : "");
+      });
     });
+    if (!earlier_rows_.empty())
+      log_.progress() << "other quantities than before: the rows up to step "
+                      << data.state.step << " are now in " << earlier_rows_
+                      << std::endl;
   }
 
   void
@@ -74,8 +106,10 @@ namespace Nacre
     print_line(state, values);
     written_.state = state;
     has_saved_     = false;
-    if (options_.write_vtu && options_.vtu_steps > 0 &&
-        state.step % options_.vtu_steps == 0)
+    const bool is_due =
+      (options_.vtu_steps > 0 && state.step % options_.vtu_steps == 0) ||
+      options_.grid.is_listed(state.time);
+    if (options_.write_vtu && is_due)
       write_fields(state, shell);
     if (options_.checkpoint_steps > 0 &&
         state.step % options_.checkpoint_steps == 0)
@@ -100,8 +134,7 @@ namespace Nacre
                       shell.displacement,
                       options_.folder,
                       options_.name,
-                      state.step,
-                      state.time);
+                      {state.step, state.time, std::to_string(state.step)});
     written_.written_fields =
       vtu_output_.records(options_.folder, options_.name);
   }
@@ -119,14 +152,10 @@ namespace Nacre
                          const std::vector<double> &values)
   {
     run_on_root(communicator_, [&]() {
+      const std::string  csv = file("_path.csv");
       std::ostringstream text;
       if (state.step == 0)
-        {
-          text << "step,time,load_factor,iterations,residual,negative_pivots";
-          for (const auto &quantity : quantities_.quantities())
-            text << ',' << quantity.name;
-          text << '\n';
-        }
+        text << csv_header() << '\n';
       text << std::setprecision(12) << state.step << ',' << state.time << ','
            << state.load_factor << ',' << state.iterations << ','
            << state.residual << ',' << state.n_negative_pivots;
@@ -135,12 +164,14 @@ namespace Nacre
       text << '\n';
       if (state.step == 0)
         {
-          write_file(csv_file(), [&](std::ostream &out) { out << text.str(); });
+          write_file(csv, [&](std::ostream &out) { out << text.str(); });
           return;
         }
-      std::ofstream out(csv_file(), std::ios::app);
+      std::ofstream out(csv, std::ios::app);
       out << text.str() << std::flush;
-      AssertThrow(out, ExcMessage("Can't write '" + csv_file() + "'."));
+      AssertThrow(out,
+                  ExcMessage("Writing '" + csv +
+                             "' failed: is the disk full?"));
     });
   }
 
@@ -159,11 +190,30 @@ namespace Nacre
     line << std::setprecision(6);
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];
-    const double done = state.time - start_time_;
-    if (options_.report_seconds && done > 0.)
+    const unsigned int n_done = state.step - start_step_;
+    if (options_.report_seconds && n_done > 0)
       line << std::fixed << std::setprecision(0) << ", "
-           << timer_.wall_time() * (options_.end_time - state.time) / done
+           << timer_.wall_time() / n_done *
+                options_.grid.n_steps_left(state.time, state.next_step)
            << " s left";
     log_.progress() << line.str() << std::endl;
+  }
+
+  std::string
+  PathMonitor::summary() const
+  {
+    std::ostringstream text;
+    text << "Path: " << written_.state.step
+         << " steps to t = " << written_.state.time << ": "
+         << file("_path.csv");
+    const auto n_fields = written_.written_fields.size();
+    if (n_fields > 0)
+      text << "; fields of " << n_fields
+           << (n_fields == 1 ? " step: " : " steps: ")
+           << file(options_.fields.format == FieldFormat::hdf5 ? ".xdmf" :
+                                                                 ".pvd");
+    if (has_saved_)
+      text << "; " << file(".checkpoint");
+    return text.str();
   }
 } // namespace Nacre

@@ -229,7 +229,28 @@ namespace Nacre
   }
 
   void
-  ShellProblem::set_up(Log &log)
+  ShellProblem::warn_of_large_displacements(Log &log) const
+  {
+    if (kinematics_options().model != KinematicsModel::linear)
+      return;
+    double largest = 0.;
+    for (const auto i : discretization_->locally_owned_dofs())
+      largest = std::max(largest, std::abs(displacement_(i)));
+    largest           = Utilities::MPI::max(largest, communicator_);
+    const double size = discretization_->extent().second;
+    if (largest <= size)
+      return;
+    std::ostringstream text;
+    text << std::setprecision(3) << "Discretization/Kinematics: a displacement"
+         << " of " << largest << " is larger than the shell, " << size
+         << "; linear kinematics holds for small displacements only. Are the "
+            "units of loads and section the same? 'corotational', with an "
+            "'Analysis/Type' other than linear, follows large rotations.";
+    log.warning(text.str());
+  }
+
+  void
+  ShellProblem::clear()
   {
     times_ = SolveTimes();
     solution_.reset();
@@ -241,7 +262,12 @@ namespace Nacre
     conditions_.reset();
     operator_.reset();
     discretization_.reset();
+  }
 
+  void
+  ShellProblem::set_up(Log &log)
+  {
+    clear();
     CpuTimer timer(communicator_);
     discretization_ = std::make_unique<Discretization>(
       refined_mesh_ != nullptr ?
@@ -272,7 +298,34 @@ namespace Nacre
                                                 SolverStorage::multigrid,
                   free_memory(communicator_),
                   log);
+    if (!is_linear())
+      {
+        if (kinematics_options().model == KinematicsModel::linear)
+          log.warning(
+            "Discretization/Kinematics: linear, which holds for small "
+            "displacements and rotations only, all along the path; "
+            "'corotational' follows large ones.");
+        system_ = std::make_unique<ShellSystem>(*discretization_,
+                                                *operator_,
+                                                boundary_conditions_,
+                                                loads_,
+                                                path_parameters_.load_factor,
+                                                *solver_);
+        path_ =
+          std::make_unique<PathAnalysis>(path_parameters_, *system_, *section_);
+      }
     times_.setup = timer.lap();
+  }
+
+  void
+  ShellProblem::check_integrands() const
+  {
+    const IndexSet               &owned = discretization_->locally_owned_dofs();
+    TrilinosWrappers::MPI::Vector zero(owned,
+                                       discretization_->locally_relevant_dofs(),
+                                       communicator_);
+    TrilinosWrappers::MPI::Vector unused(owned, communicator_);
+    operator_->residual(zero, unused);
   }
 
   void
@@ -292,8 +345,8 @@ namespace Nacre
   void
   ShellProblem::solve(Log &log)
   {
-    set_up(log);
     solve_linear_system(log);
+    warn_of_large_displacements(log);
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
@@ -308,18 +361,9 @@ namespace Nacre
   }
 
   PathState
-  ShellProblem::start_path(Log &log)
+  ShellProblem::start_path(const MotionState *start)
   {
-    set_up(log);
-    system_ = std::make_unique<ShellSystem>(*discretization_,
-                                            *operator_,
-                                            boundary_conditions_,
-                                            loads_,
-                                            path_parameters_.load_factor,
-                                            *solver_);
-    path_ =
-      std::make_unique<PathAnalysis>(path_parameters_, *system_, *section_);
-    return path_->initial_state();
+    return path_->initial_state(start);
   }
 
   std::string
@@ -336,8 +380,11 @@ namespace Nacre
       },
       [&](const std::string &text) { log.progress() << text << std::endl; });
     take_state(state);
+    warn_of_large_displacements(log);
     solver_record_.name = solver_->name();
-    times_.solve        = timer.lap();
+    times_.assembly =
+      Utilities::MPI::sum(system_->assembly_seconds(), communicator_);
+    times_.solve = timer.lap() - times_.assembly;
     return failure;
   }
 
@@ -541,12 +588,7 @@ namespace Nacre
   ShellProblem::refine(const std::vector<bool> &marked)
   {
     auto mesh = discretization_->release_triangulation();
-    solution_.reset();
-    solver_.reset();
-    matrix_.clear();
-    conditions_.reset();
-    operator_.reset();
-    discretization_.reset();
+    clear();
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned() && marked[cell->active_cell_index()])
         cell->set_refine_flag();

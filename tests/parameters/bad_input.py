@@ -168,9 +168,9 @@ def good_template(nacre, base, folder):
                  "subsection folded strip"):
         check(text in out, f"{text!r} is not in the template")
     (folder / "template.prm").write_text(out)
-    succeed(nacre, ["template.prm", "--check"], folder, "no errors")
-    succeed(nacre, ["template.prm", "--quiet", "--set",
-                    "Boundary conditions/Edges=u=0: clamped"], folder)
+    held = ["--set", "Boundary conditions/Edges=u=0: clamped"]
+    succeed(nacre, ["template.prm", "--check", *held], folder, "no errors")
+    succeed(nacre, ["template.prm", "--quiet", *held], folder)
     table(folder / "output/template.csv")
 
 

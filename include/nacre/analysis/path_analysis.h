@@ -53,9 +53,13 @@ namespace Nacre
                  ShellSystem          &system,
                  const SectionLaw     &section);
 
-    /** The state at t = 0; collective. */
+    /**
+     * The state at t = 0: at rest and undeformed, or with the displacement and
+     * in dynamics the velocity of @p start, if there is one; in dynamics what
+     * the parameters say is added. Collective.
+     */
     PathState
-    initial_state() const;
+    initial_state(const MotionState *start = nullptr) const;
 
     /**
      * Go on from @p state to the end time. Returns "", or, if a step can't be

@@ -4,6 +4,7 @@
 #ifndef nacre_analysis_path_parameters_h
 #define nacre_analysis_path_parameters_h
 
+#include <nacre/analysis/time_grid.h>
 #include <nacre/analysis/time_integrator.h>
 #include <nacre/base/expression.h>
 #include <nacre/solvers/newton_solver.h>
@@ -11,6 +12,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -46,13 +48,24 @@ namespace Nacre
     void
     prepare(const Constants &constants);
 
+    /** Where the steps end. */
+    TimeGrid
+    time_grid() const
+    {
+      return {time_step, end_time, output_times};
+    }
+
     AnalysisType type = AnalysisType::linear;
+    /** Name of the run whose last state is the start; empty: none. */
+    std::string start_from;
     /** Factor of loads and prescribed values over t. */
     Expression load_factor;
     double     end_time  = 1.;
     double     time_step = 0.1;
     double     minimum_time_step;
     double     maximum_time_step;
+    /** Times that are met exactly, and whose fields are written. */
+    std::vector<double> output_times;
 
     NewtonSolver::Parameters newton;
     LineSearch               line_search = LineSearch::automatic;
@@ -69,12 +82,19 @@ namespace Nacre
     unsigned int checkpoint_steps = 10;
 
   private:
+    void
+    prepare_times(const Constants &constants);
+
+    void
+    prepare_start(const Constants &constants);
+
     std::string type_text_                 = "linear";
     std::string load_factor_text_          = "default";
     std::string end_time_text_             = "1";
     std::string time_step_text_            = "0.1";
     std::string minimum_time_step_text_    = "default";
     std::string maximum_time_step_text_    = "default";
+    std::string output_times_text_         = "";
     std::string line_search_text_          = "automatic";
     std::string tangent_updates_text_      = "every iteration";
     std::string scheme_text_               = "generalised alpha";

@@ -140,6 +140,13 @@ namespace Nacre
       return shell_operator_;
     }
 
+    /** CPU seconds of residuals and tangents so far on this rank. */
+    double
+    assembly_seconds() const
+    {
+      return assembly_seconds_;
+    }
+
     /** Strain energy at the last solve_linearised(). */
     const Energies &
     energies() const
@@ -176,6 +183,7 @@ namespace Nacre
     bool                                    keeps_tangent_ = false;
     bool                                    has_tangent_   = false;
     Energies                                energies_;
+    mutable double                          assembly_seconds_ = 0.;
   };
 } // namespace Nacre
 

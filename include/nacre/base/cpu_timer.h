@@ -12,6 +12,27 @@ namespace Nacre
 {
   using namespace dealii;
 
+  /** Adds the CPU seconds of its life on this rank to a sum. */
+  class CpuSum
+  {
+  public:
+    explicit CpuSum(double &sum)
+      : sum_(sum)
+      , start_(std::clock())
+    {}
+
+    CpuSum(const CpuSum &) = delete;
+
+    ~CpuSum()
+    {
+      sum_ += double(std::clock() - start_) / CLOCKS_PER_SEC;
+    }
+
+  private:
+    double            &sum_;
+    const std::clock_t start_;
+  };
+
   /**
    * CPU time of parts of a program: of the user and of the system, to a
    * microsecond (deal.II's Timer: of the user, in steps of the scheduler).

@@ -20,6 +20,10 @@ namespace Nacre
     std::string content;
   };
 
+  /** A number, in text, that tells @p content from any other. */
+  std::string
+  fingerprint(const std::string &content);
+
   /**
    * Read the file @p name. A relative name is taken from @p folder, that of
    * the parameter file, if it exists there, else from the current folder.

@@ -37,12 +37,19 @@ namespace Nacre
     void
     note(const std::string &text);
 
+    /** Different warnings so far. */
+    unsigned int
+    n_warnings() const
+    {
+      return n_warnings_;
+    }
+
     bool
     is_quiet() const;
 
   private:
-    /** Print @p line on std::cerr unless that was done before. */
-    void
+    /** Print @p line on std::cerr, once; whether it is new. */
+    bool
     tell_once(const std::string &line);
 
     bool                       quiet_;
@@ -50,6 +57,7 @@ namespace Nacre
     dealii::ConditionalOStream results_;
     dealii::ConditionalOStream errors_;
     std::set<std::string>      told_;
+    unsigned int               n_warnings_ = 0;
   };
 } // namespace Nacre
 

@@ -4,6 +4,7 @@
 #ifndef nacre_base_output_file_h
 #define nacre_base_output_file_h
 
+#include <cstddef>
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -25,6 +26,14 @@ namespace Nacre
   void
   write_file(const std::string                         &file,
              const std::function<void(std::ostream &)> &write);
+
+  /**
+   * Throw the same complaint as write_file() if @p bytes of @p file don't fit
+   * on the disk, or into the system's limit of files: for writers of other
+   * libraries, which don't survive that. For one rank only.
+   */
+  void
+  check_space(const std::string &file, const std::size_t bytes);
 } // namespace Nacre
 
 #endif

@@ -5,6 +5,7 @@
 #define nacre_base_parameter_input_h
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ namespace Nacre
    */
   void
   write_used_parameters(const std::string &file);
+
+  /** The texts of all parameters in use, by "Section/Subsection/Parameter". */
+  std::map<std::string, std::string>
+  parameter_values();
 
   /** A parameter file of all defaults, annotated with documentation. */
   void

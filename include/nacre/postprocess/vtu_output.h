@@ -104,9 +104,11 @@ namespace Nacre
    *
    * | format | cells | files | list of times |
    * |---|---|---|---|
-   * | vtu | higher-order | `NAME_COUNTER.vtu`, or `NAME_COUNTER.GROUP.vtu` for
-   * each group of ranks that owns cells, and `NAME_COUNTER.pvtu` | `NAME.pvd` |
-   * | hdf5 | linear, p x p for each | `NAME_COUNTER.h5` | `NAME.xdmf` |
+   * | vtu | higher-order | `NAME_LABEL.vtu`, or `NAME_LABEL.GROUP.vtu` for
+   * each group of ranks that owns cells, and `NAME_LABEL.pvtu` | `NAME.pvd` |
+   * | hdf5 | linear, p x p for each | `NAME_LABEL.h5` | `NAME.xdmf` |
+   *
+   * The label tells what a file holds; by default it is the counter.
    *
    * In ParaView open the list and use "Warp By Vector" with the displacement.
    */
@@ -128,8 +130,30 @@ namespace Nacre
       : options_(options)
     {}
 
+    /** What the files of a solve or a step are called and listed as. */
+    struct Entry
+    {
+      /** Not explicit: the number of a solve says it all. */
+      Entry(const unsigned int counter)
+        : Entry(counter, counter, std::to_string(counter))
+      {}
+
+      Entry(const unsigned int counter,
+            const double       time,
+            const std::string &label)
+        : counter(counter)
+        , time(time)
+        , label(label)
+      {}
+
+      unsigned int counter;
+      /** That the list tells of. */
+      double      time;
+      std::string label;
+    };
+
     /**
-     * Write the files of @p counter into @p folder, which is created if it is
+     * Write the files of @p entry into @p folder, which is created if it is
      * missing, and the list of all counters written so far by this object.
      * Collective; throws on all ranks an ExcMessage that names the folder or
      * file if one can't be written.
@@ -141,30 +165,7 @@ namespace Nacre
           const TrilinosWrappers::MPI::Vector &ghosted_displacement,
           const std::string                   &folder,
           const std::string                   &name,
-          const unsigned int                   counter,
-          const std::vector<double>           &error_indicators = {})
-    {
-      write(discretization,
-            section,
-            kinematics,
-            ghosted_displacement,
-            folder,
-            name,
-            counter,
-            counter,
-            error_indicators);
-    }
-
-    /** The same with the @p time that the list tells of. */
-    void
-    write(const Discretization                &discretization,
-          const SectionLaw                    &section,
-          const KinematicsOptions             &kinematics,
-          const TrilinosWrappers::MPI::Vector &ghosted_displacement,
-          const std::string                   &folder,
-          const std::string                   &name,
-          const unsigned int                   counter,
-          const double                         time,
+          const Entry                         &entry,
           const std::vector<double>           &error_indicators = {});
 
     /** What has been written under this name. */

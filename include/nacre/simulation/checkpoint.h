@@ -6,7 +6,9 @@
 
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/postprocess/vtu_output.h>
+#include <nacre/simulation/problem_record.h>
 
+#include <functional>
 #include <string>
 
 namespace Nacre
@@ -16,7 +18,9 @@ namespace Nacre
   /** What a checkpoint holds. */
   struct CheckpointData
   {
-    PathState state;
+    /** Of the run that saves it. */
+    ProblemRecord problem;
+    PathState     state;
     /** The fields written so far, by their step. */
     FieldRecords written_fields;
   };
@@ -27,7 +31,8 @@ namespace Nacre
    * is killed at any moment finds the last complete one. Numbers are kept bit
    * for bit.
    *
-   * A rank's file holds the values of the nodes of its cells, cell by cell
+   * The first entries are the layout and the run's ProblemRecord. Then a rank's
+   * file holds the positions and the values of the nodes of its cells, cell by cell
    * under the cell's CellId, which no partition changes: any number of ranks
    * can go on from it. Cells are dealt out along a curve, so that a rank finds
    * its cells in a few neighbouring files and reads no others.
@@ -38,24 +43,26 @@ namespace Nacre
     /**
      * @param discretization of all states
      * @param base_name folder and name of the run's files
-     * @param problem words that tell this problem from any other, the same on
-     *   any number of ranks
+     * @param where what asks for the checkpoint, for messages of load()
      */
     Checkpoint(const Discretization &discretization,
                const std::string    &base_name,
-               const std::string    &problem);
+               const std::string    &where = "--restart");
 
     /** Collective; throws on all ranks if a file can't be written. */
     void
     save(const CheckpointData &data);
 
+    /** Says what is wrong with a record, or "". It must not communicate. */
+    using Judge = std::function<std::string(const ProblemRecord &)>;
+
     /**
-     * Fill @p data, whose vectors have their distribution already, on any
-     * number of ranks. Throws on all ranks if there is no checkpoint, or one of
-     * another problem or mesh. Collective.
+     * Fill @p data on any number of ranks. Throws on all ranks if there is no
+     * checkpoint, one that @p judge doesn't accept, or one of another element
+     * or mesh. Collective.
      */
     void
-    load(CheckpointData &data);
+    load(CheckpointData &data, const Judge &judge);
 
     /** Remove the files of an earlier run; on rank 0. */
     void
@@ -75,7 +82,8 @@ namespace Nacre
     void
     read_file(const unsigned int writer,
               CheckpointData    &data,
-              CellValues        &values) const;
+              CellValues        &values,
+              const Judge       &judge) const;
 
     /** Remove the files of the ranks from @p first on. */
     void
@@ -84,7 +92,7 @@ namespace Nacre
     const Discretization &discretization_;
     const MPI_Comm        communicator_;
     const std::string     base_name_;
-    const std::string     problem_;
+    const std::string     where_;
     const unsigned int    rank_;
     const unsigned int    n_ranks_;
     unsigned int          slot_ = 0;

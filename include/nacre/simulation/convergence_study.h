@@ -9,11 +9,13 @@
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/adaptive_refinement.h>
+#include <nacre/simulation/checkpoint.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,13 @@ namespace Nacre
     /** What a user may want to know about the input, a sentence each. */
     std::vector<std::string>
     notes() const;
+
+    /**
+     * Check all cases as far as that goes without solving one: what run() would
+     * complain of before its first solve; throws ExcMessage. Collective.
+     */
+    void
+    check(Log &log, const bool restart);
 
     /**
      * Solve all cases; writes the table after each of them, so that nothing is
@@ -77,12 +86,52 @@ namespace Nacre
     std::string
     base_name() const;
 
-    /** Make the folder, remove older results, write the .used.prm. */
+    /**
+     * Make the folder, remove older results unless they are kept, write the
+     * .used.prm.
+     */
     void
-    prepare_output() const;
+    prepare_output(const bool keeps_results) const;
 
-    /** Follow the path of one case, which writes files of its own. */
     void
+    check_restart(const bool restart, const std::size_t n_cases) const;
+
+    /**
+     * Set up the case given to prepare_case(), and check the quantities on its
+     * mesh.
+     */
+    void
+    set_up_case(Log &log);
+
+    /** What a case is called in names of files: p3_r2. */
+    std::string
+    label(const ShellCase &shell_case) const;
+
+    /** Name of the files of a path: that of the study if it is the only one. */
+    std::string
+    path_name(const std::vector<ShellCase> &cases,
+              const ShellCase              &shell_case) const;
+
+    /** Folder and name of a path's files, without their endings. */
+    std::string
+    path_base(const std::string &name) const;
+
+    /**
+     * The state that a path begins with other than the undeformed shell: that
+     * of the @p checkpoint at a restart, or the last one of another run.
+     */
+    std::optional<CheckpointData>
+    load_state(const ProblemRecord &problem,
+               const std::string   &base,
+               const bool           restart,
+               Checkpoint          &checkpoint,
+               Log                 &log) const;
+
+    /**
+     * Follow the path of one case, which writes files of its own; returns what
+     * it has written.
+     */
+    std::string
     follow_path(const std::string &name, const bool restart, Log &log);
 
     /**
@@ -96,6 +145,16 @@ namespace Nacre
                  ResultsTable      &table,
                  VtuOutput         &vtu_output,
                  Log               &log);
+
+    /**
+     * Tell the table, what has been solved and written, a line for each of the
+     * @p paths, and the number of warnings.
+     */
+    void
+    print_results(const ResultsTable &table,
+                  const std::string  &paths,
+                  const unsigned int  n_warnings,
+                  Log                &log) const;
 
     /** The row of the case just solved. */
     ResultsTable::Row

@@ -34,7 +34,7 @@ namespace Nacre
       bool               report_seconds;
       unsigned int       vtu_steps;
       unsigned int       checkpoint_steps;
-      double             end_time;
+      TimeGrid           grid;
     };
 
     PathMonitor(const MPI_Comm              communicator,
@@ -43,9 +43,17 @@ namespace Nacre
                 Checkpoint                 &checkpoint,
                 Log                        &log);
 
-    /** Take up the files of the run that @p data was saved by. */
+    /** Begin with the parameters @p problem, which checkpoints remember. */
     void
-    resume(const CheckpointData &data);
+    start(const ProblemRecord &problem);
+
+    /**
+     * Take up the files of the run that @p data was saved by. If this run has
+     * other quantities, `NAME_path.csv` begins anew, and the rows so far are
+     * kept in `NAME_path_until_STEP.csv`.
+     */
+    void
+    resume(const CheckpointData &data, const ProblemRecord &problem);
 
     /** A step is done; collective. */
     void
@@ -58,7 +66,17 @@ namespace Nacre
     void
     finish(const PathState &state, const SolvedShell &shell);
 
+    /** What has been written, for the end of the run. */
+    std::string
+    summary() const;
+
   private:
+    std::string
+    csv_header() const;
+
+    std::string
+    file(const std::string &ending) const;
+
     void
     write_row(const PathState &state, const std::vector<double> &values);
 
@@ -71,9 +89,6 @@ namespace Nacre
     void
     save(const PathState &state);
 
-    std::string
-    csv_file() const;
-
     const MPI_Comm              communicator_;
     const Options               options_;
     const QuantitiesOfInterest &quantities_;
@@ -83,8 +98,10 @@ namespace Nacre
     CheckpointData              written_;
     bool                        has_saved_ = false;
     Timer                       timer_;
-    /** Time t where the timer started. */
-    double start_time_ = 0.;
+    /** The step where the timer started. */
+    unsigned int start_step_ = 0;
+    /** The rows before a restart with other quantities, if there was one. */
+    std::string earlier_rows_;
   };
 } // namespace Nacre
 

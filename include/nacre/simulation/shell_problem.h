@@ -83,8 +83,22 @@ namespace Nacre
     }
 
     /**
-     * Set up, assemble and solve the case given to prepare(). Throws if rigid
-     * motions are left free, naming them, and if the matrix isn't positive
+     * Set up the case given to prepare(), or the mesh that refine() has made:
+     * all that can be found wrong before a system is assembled is found here,
+     * as rigid motions left free, which are named.
+     */
+    void
+    set_up(Log &log);
+
+    /**
+     * Evaluate all loads and stiffnesses on the undeformed shell, and throw
+     * what is wrong with one; after set_up().
+     */
+    void
+    check_integrands() const;
+
+    /**
+     * Assemble and solve after set_up(). Throws if the matrix isn't positive
      * definite.
      */
     void
@@ -125,9 +139,9 @@ namespace Nacre
     using PathObserver =
       std::function<void(const PathState &, const SolvedShell &)>;
 
-    /** Set up the case given to prepare(); returns the start of its path. */
+    /** The start of the path after set_up(), from @p start if not null. */
     PathState
-    start_path(Log &log);
+    start_path(const MotionState *start);
 
     /**
      * Go on along the path from @p state. Returns "", or why the path ends
@@ -202,10 +216,6 @@ namespace Nacre
     }
 
   private:
-    /** Discretization and operator; checks that the shell is held. */
-    void
-    set_up(Log &log);
-
     /** Throws if rigid motions are left free, naming them. */
     void
     check_supports() const;
@@ -216,6 +226,14 @@ namespace Nacre
 
     void
     warn_of_penalty(Log &log) const;
+
+    /** If linear kinematics is taken beyond small displacements. */
+    void
+    warn_of_large_displacements(Log &log) const;
+
+    /** Forget everything of the last set-up. */
+    void
+    clear();
 
     void
     make_solver(Log &log);

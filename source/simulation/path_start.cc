@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+#include <nacre/simulation/path_start.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace Nacre
+{
+  CheckpointData
+  load_restart(const PathParameters &parameters,
+               const ProblemRecord  &problem,
+               Checkpoint           &checkpoint,
+               Log                  &log)
+  {
+    CheckpointData data;
+    checkpoint.load(data, [&](const ProblemRecord &then) {
+      return forbidden_changes(then, problem);
+    });
+    PathState &state = data.state;
+    if (has_changed("Analysis/Time step", data.problem, problem))
+      state.next_step = parameters.time_step;
+    state.next_step = std::min(state.next_step, parameters.maximum_time_step);
+
+    log.progress() << "restart from step " << state.step
+                   << ", t = " << state.time << std::endl;
+    const std::string changes = permitted_changes(data.problem, problem);
+    if (!changes.empty())
+      log.progress() << "changed: " << changes << std::endl;
+    return data;
+  }
+
+  CheckpointData
+  load_start(const PathParameters &parameters,
+             const ProblemRecord  &problem,
+             const Discretization &discretization,
+             const std::string    &own_base,
+             Log                  &log)
+  {
+    const std::string where = "Analysis/Start from";
+    // NAME and NAME.checkpoint are the same.
+    std::filesystem::path base = parameters.start_from;
+    if (base.extension() == ".checkpoint")
+      base.replace_extension();
+    const auto full = [](const std::filesystem::path &path) {
+      return std::filesystem::absolute(path).lexically_normal();
+    };
+    AssertThrow(full(base) != full(own_base),
+                ExcMessage(where + ": '" + base.string() +
+                           "' is what this run itself writes; give it another "
+                           "name by Study/Name or Study/Output folder, or go "
+                           "on with --restart."));
+    CheckpointData data;
+    Checkpoint     checkpoint(discretization, base.string(), where);
+    checkpoint.load(data, [](const ProblemRecord &) { return std::string(); });
+
+    log.progress() << "start from step " << data.state.step
+                   << ", t = " << data.state.time << " of " << base.string()
+                   << std::endl;
+    for (const auto *const section : {"Section", "Discretization"})
+      {
+        const auto changes = changes_in(section, data.problem, problem);
+        if (!changes.empty())
+          log.progress() << "changed: " << changes << std::endl;
+      }
+    return data;
+  }
+
+  void
+  warn_of_load_factor(const PathParameters &parameters,
+                      const ProblemRecord  &problem,
+                      Log                  &log)
+  {
+    if (parameters.load_factor.is_constant())
+      return;
+    std::string found;
+    for (const auto *const section : {"Loads", "Boundary conditions"})
+      if (mentions(problem, section, "t"))
+        found += (found.empty() ? "'" : " and '") + std::string(section) + "'";
+    if (found.empty())
+      return;
+    const auto &factor = problem.parameters.at("Analysis/Load factor");
+    log.warning("Analysis/Load factor: '" + factor + "'" +
+                (factor == "default" ? ", which is t," : "") +
+                " multiplies values of " + found +
+                " that depend on t themselves. 'Load factor = 1' takes them "
+                "as they are.");
+  }
+} // namespace Nacre
