@@ -154,6 +154,17 @@ namespace Nacre
     can_keep_tangent(const AffineConstraints<double> &constraints,
                      const Vector                    &u) const;
 
+    /**
+     * The largest increment (length) that @p constraints prescribe, on all
+     * ranks.
+     */
+    double
+    prescribed_increment(const AffineConstraints<double> &constraints) const;
+
+    /** NewtonSolver::Step::round_off_work at @p u, with the matrix' tangent. */
+    double
+    round_off_work(const Vector &u) const;
+
     /** Move the constrained entries to those that they depend on. */
     void
     condense(const AffineConstraints<double> &constraints, Vector &r) const;
@@ -169,6 +180,7 @@ namespace Nacre
     Expression           &load_factor_;
     double                factor_ = 0.;
     double                size_;
+    double                area_;
 
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
