@@ -40,8 +40,8 @@ namespace Nacre
     if (parameters_.type != AnalysisType::dynamic)
       return state;
 
-    motion.u = system_.interpolate(parameters_.initial_displacement);
-    motion.v = system_.interpolate(parameters_.initial_velocity);
+    motion.u = system_.interpolate(std::cref(parameters_.initial_displacement));
+    motion.v = system_.interpolate(std::cref(parameters_.initial_velocity));
     system_.constraints().distribute(motion.u);
     motion.a = system_.acceleration(motion.u,
                                     motion.v,

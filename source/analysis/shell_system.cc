@@ -62,10 +62,8 @@ namespace Nacre
     mass.vmult(damping_force, with_ghosts(v));
     force.sadd(-1., -damping, damping_force);
 
-    AffineConstraints<double> homogeneous(constraints());
-    for (const auto &line : constraints().get_lines())
-      homogeneous.set_inhomogeneity(line.index, 0.);
-    has_tangent_           = false;
+    const AffineConstraints<double> homogeneous = homogeneous_constraints();
+    has_tangent_                                = false;
     Vector right_hand_side = owned_vector(), a = owned_vector();
     mass.assemble_system(homogeneous,
                          with_ghosts(force),
@@ -91,8 +89,42 @@ namespace Nacre
            mass.trace();
   }
 
+  double
+  ShellSystem::product(const MassTerms &mass,
+                       const Vector    &v,
+                       const Vector    &w) const
+  {
+    Vector Mw = owned_vector();
+    mass.vmult(Mw, with_ghosts(w));
+    return v * Mw;
+  }
+
+  double
+  ShellSystem::improve_mode(const MassTerms   &mass,
+                            const unsigned int n_steps,
+                            Vector            &mode)
+  {
+    const AffineConstraints<double> homogeneous = homogeneous_constraints();
+    Vector                          b = owned_vector(), x = owned_vector();
+    double                          mu = 0.;
+    for (unsigned int k = 0; k < n_steps; ++k)
+      {
+        mass.vmult(b, with_ghosts(mode));
+        condense(homogeneous, b);
+        solver_.solve(x, b);
+        const double bx = b * x;
+        homogeneous.distribute(x);
+        const double norm_square = product(mass, x, x);
+        mu                       = bx / norm_square;
+        mode.equ(1. / std::sqrt(norm_square), x);
+      }
+    return mu;
+  }
+
   ShellSystem::Vector
-  ShellSystem::interpolate(const VectorExpression &function) const
+  ShellSystem::interpolate(
+    const std::function<Tensor<1, spacedim>(const Point<spacedim> &)> &function)
+    const
   {
     Vector      values    = owned_vector();
     const auto &node_dofs = discretization_.node_dofs();
@@ -147,6 +179,15 @@ namespace Nacre
           gap += weight * ghosted_end(dof);
         result.set_inhomogeneity(line.index, share * gap);
       }
+    return result;
+  }
+
+  AffineConstraints<double>
+  ShellSystem::homogeneous_constraints() const
+  {
+    AffineConstraints<double> result(constraints());
+    for (const auto &line : constraints().get_lines())
+      result.set_inhomogeneity(line.index, 0.);
     return result;
   }
 

@@ -12,11 +12,15 @@ namespace Nacre
    * Dynamic relaxation: linearly implicit Euler steps, each from rest, of a
    * shell of unit mass per area,
    *
-   *   (M / dt_k^2 + K(u_k)) (u_{k+1} - u_k) = f - F(u_k).
+   *   (K(u_k) + sigma_k M) (u_{k+1} - u_k) = f - F(u_k), sigma_k = 1 / dt_k^2.
    *
-   * The step is cut until the matrix is positive definite, so that the
-   * energy falls, and grows as the linearisation gets better: in the end it
-   * is infinite, and Newton's method converges to a stable state.
+   * The shift sigma is raised until the matrix is positive definite, so that
+   * the energy falls; an increment that goes beyond the energy's minimum along
+   * it is shortened. Where K itself has a negative eigenvalue the state is
+   * pushed along the eigenvector as well: an unstable state of perfect
+   * symmetry, where nothing else drives it away, is left like this. The shift
+   * falls as the linearisation gets better: in the end it is zero, and
+   * Newton's method converges to a stable state.
    */
   class Relaxation
   {
@@ -40,9 +44,55 @@ namespace Nacre
     run(Vector &u);
 
   private:
+    /** How much of an increment was taken. */
+    struct Part
+    {
+      /** Factor of the increment; 0: none was good. */
+      double factor = 1.;
+      /**
+       * The force along the increment at its end, by that at its start: 1 in a
+       * slope, negative beyond the minimum.
+       */
+      double share = 0.;
+    };
+
+    /** A smooth field without any symmetry, to find eigenvectors from. */
+    Vector
+    start_mode() const;
+
+    /** Move @p u by the answer @p du to its residual, or by a part of it. */
+    Part
+    take_increment(Vector &u, const Vector &du, const NewtonSolver::Step &step);
+
+    /** After a matrix with negative eigenvalues. */
+    void
+    raise_shift();
+
+    /** After an increment of which @p part was taken. */
+    void
+    adapt_shift(const Part &part, const double expected_share);
+
+    /**
+     * Move @p u along the eigenvector of the lowest eigenvalue, if that is
+     * negative, as far as the energy falls like its curvature says.
+     */
+    void
+    push_along_mode(Vector &u, const NewtonSolver::Step &step);
+
     ShellSystem                    &system_;
     const MassTerms                &mass_;
     const NewtonSolver::Parameters &newton_;
+
+    /** sigma, and the least one that isn't zero (1/time^2). */
+    double shift_ = 0., least_shift_ = 0.;
+    /** The last increment was too long: raise the time step slowly. */
+    bool is_careful_ = false;
+    /** Nearly the eigenvector of K's lowest eigenvalue, and that (1/time^2). */
+    Vector mode_;
+    bool   has_mode_   = false;
+    double eigenvalue_ = 0.;
+    /** Largest displacement of the last push (length). */
+    double amplitude_;
   };
 } // namespace Nacre
 
