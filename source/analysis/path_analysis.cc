@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/analysis/relaxation.h>
 #include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
@@ -41,10 +42,11 @@ namespace Nacre
     if (parameters_.type != AnalysisType::dynamic)
       return state;
 
-    motion.u += system_.interpolate(parameters_.initial_displacement);
+    motion.u +=
+      system_.interpolate(std::cref(parameters_.initial_displacement));
     if (start != nullptr)
       motion.v = start->v;
-    motion.v += system_.interpolate(parameters_.initial_velocity);
+    motion.v += system_.interpolate(std::cref(parameters_.initial_velocity));
     system_.constraints().distribute(motion.u);
     motion.a = system_.acceleration(motion.u,
                                     motion.v,
@@ -220,58 +222,9 @@ namespace Nacre
   {
     system_.set_time(state.time + dt);
     system_.keep_tangent(false);
-    const unsigned int max_iterations = 40 * parameters_.newton.max_iterations;
-    const double       softest =
-      1e-10 * system_.stiffness_to_mass(state.motion.u, *mass_);
-
-    Attempt      attempt{{}, state.motion};
-    Vector      &u     = attempt.motion.u;
-    Vector       du    = system_.owned_vector();
-    const Vector rest  = system_.with_ghosts(du);
-    double       sigma = 0., largest_change = 0.;
-    bool         rejected   = false;
-    auto        &iterations = attempt.result.iterations;
-    auto        &step       = attempt.result.last;
-    for (iterations = 0; iterations < max_iterations;)
-      {
-        const Inertia inertia{*mass_, rest, sigma};
-        step = system_.solve_linearised(u, u, du, &inertia, 1.);
-        ++iterations;
-        // The first increment brings the prescribed displacements.
-        const bool first = (iterations == 1);
-        bool       good  = first || step.n_negative_pivots == 0;
-        double     share = 1.;
-        if (good && !first)
-          {
-            Vector trial(u);
-            trial += du;
-            share = system_.work(trial, du) / step.work;
-            good  = std::isfinite(share) && share > -0.5 &&
-                   du.linfty_norm() < system_.size();
-          }
-        if (!good)
-          {
-            sigma    = std::max(4. * sigma, softest);
-            rejected = true;
-            continue;
-          }
-        u += du;
-        largest_change = std::max(largest_change, du.linfty_norm());
-        // Changes of a whole path: a step's tolerance would be too tight.
-        attempt.result.converged =
-          !first && sigma == 0. &&
-          du.linfty_norm() <=
-            100. * parameters_.newton.increment_tolerance * largest_change;
-        if (attempt.result.converged)
-          break;
-        // Longer steps, carefully where a longer one has just failed.
-        sigma *= rejected ? 0.7 : 0.25;
-        rejected = false;
-        if (sigma < softest)
-          sigma = 0.;
-      }
-    attempt.result.reason = "the dynamic relaxation found no stable state in " +
-                            std::to_string(iterations) + " iterations";
+    Attempt    attempt{{}, state.motion};
+    Relaxation relaxation(system_, *mass_, parameters_.newton);
+    attempt.result = relaxation.run(attempt.motion.u);
     return attempt;
   }
 } // namespace Nacre

@@ -82,7 +82,8 @@ namespace Nacre
         largest_work = std::max(largest_work, energy);
         if (factor * increment <=
               parameters_.increment_tolerance * factor * largest_change ||
-            energy <= parameters_.energy_tolerance * largest_work)
+            energy <= parameters_.energy_tolerance * largest_work ||
+            energy <= result.last.round_off_work)
           {
             result.converged = true;
             return result;

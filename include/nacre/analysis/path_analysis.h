@@ -95,16 +95,7 @@ namespace Nacre
     Attempt
     dynamic_step(const PathState &state, const double dt, const bool search);
 
-    /**
-     * Dynamic relaxation: linearly implicit Euler steps, each from rest, of a
-     * shell of unit mass per area,
-     *
-     *   (M / dt_k^2 + K(u_k)) (u_{k+1} - u_k) = f - F(u_k).
-     *
-     * The step is cut until the matrix is positive definite, so that the
-     * energy falls, and grows as the linearisation gets better: in the end it
-     * is infinite, and Newton's method converges to a stable state.
-     */
+    /** Dynamic relaxation from the last good state. */
     Attempt
     relax(const PathState &state, const double dt);
 

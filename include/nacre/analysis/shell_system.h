@@ -11,6 +11,7 @@
 #include <nacre/solvers/linear_solver.h>
 #include <nacre/solvers/newton_solver.h>
 
+#include <functional>
 #include <memory>
 
 namespace Nacre
@@ -94,6 +95,21 @@ namespace Nacre
          const Vector  &du,
          const Inertia *inertia = nullptr) const;
 
+    /** v . M w of vectors of owned entries. */
+    double
+    product(const MassTerms &mass, const Vector &v, const Vector &w) const;
+
+    /**
+     * Improve @p mode, a guess of the lowest eigenvector of A x = mu M x, by
+     * @p n_steps steps of inverse iteration with the last matrix A that
+     * solve_linearised() has solved with; x . M x is 1 afterwards. Returns mu
+     * (1/time^2), which is never less than the lowest one.
+     */
+    double
+    improve_mode(const MassTerms   &mass,
+                 const unsigned int n_steps,
+                 Vector            &mode);
+
     /**
      * The acceleration (length/time^2) that the forces at @p u and the damping
      * (1/time) at the velocity @p v give; zero where displacements are
@@ -111,7 +127,9 @@ namespace Nacre
 
     /** Values of @p function at the undeformed nodes. */
     Vector
-    interpolate(const VectorExpression &function) const;
+    interpolate(
+      const std::function<Tensor<1, spacedim>(const Point<spacedim> &)>
+        &function) const;
 
     /** A vector with ghosts and the entries of @p owned. */
     Vector
@@ -161,6 +179,21 @@ namespace Nacre
     can_keep_tangent(const AffineConstraints<double> &constraints,
                      const Vector                    &u) const;
 
+    /** Those of the time, without the prescribed values. */
+    AffineConstraints<double>
+    homogeneous_constraints() const;
+
+    /**
+     * The largest increment (length) that @p constraints prescribe, on all
+     * ranks.
+     */
+    double
+    prescribed_increment(const AffineConstraints<double> &constraints) const;
+
+    /** NewtonSolver::Step::round_off_work at @p u, with the matrix' tangent. */
+    double
+    round_off_work(const Vector &u) const;
+
     /** Move the constrained entries to those that they depend on. */
     void
     condense(const AffineConstraints<double> &constraints, Vector &r) const;
@@ -176,6 +209,7 @@ namespace Nacre
     Expression           &load_factor_;
     double                factor_ = 0.;
     double                size_;
+    double                area_;
 
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;

@@ -17,8 +17,10 @@ namespace Nacre
    * It stops when the last increment is small, |du|_max at most
    * increment_tolerance times the largest change of u since the start, or when
    * the work of the residual on it, du . r, is at most energy_tolerance times
-   * the largest such work before. The residual's own norm is no measure: for
-   * thin shells it stagnates at round-off times the membrane stiffness.
+   * the largest such work before. Both compare with the step; a step without a
+   * change stops when that work is no more than round-off does. The residual's
+   * own norm is no measure: for thin shells it stagnates at round-off times the
+   * membrane stiffness.
    */
   class NewtonSolver
   {
@@ -43,6 +45,11 @@ namespace Nacre
       double residual = 0.;
       /** -r . du over the free dofs (force times length). */
       double work = 0.;
+      /**
+       * The work that the round-off of r alone may do on its increment K^-1 r;
+       * 0 if du holds more than the answer to r (force times length).
+       */
+      double round_off_work = 0.;
       /** Negative eigenvalues of K. */
       unsigned int n_negative_pivots = 0;
     };
