@@ -6,6 +6,7 @@
 #include <nacre/base/output_file.h>
 #include <nacre/base/parameter_input.h>
 #include <nacre/base/text.h>
+#include <nacre/postprocess/reactions.h>
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/checkpoint.h>
@@ -243,6 +244,22 @@ namespace Nacre
     return row;
   }
 
+  void
+  ConvergenceStudy::add_balance()
+  {
+    const auto &origin = quantities_.balance_origin();
+    if (!origin)
+      return;
+    const SolvedShell &shell = problem_.solution();
+    std::ostringstream text;
+    text << '\n'
+         << problem_.element_name() << ", p "
+         << shell.discretization.degree() << ", "
+         << shell.discretization.dof_handler().n_dofs() << " dofs: ";
+    write_balance(Balance(shell, *origin), *origin, text);
+    balances_ += text.str();
+  }
+
   std::string
   ConvergenceStudy::progress_line(const ResultsTable::Row &row) const
   {
@@ -346,6 +363,7 @@ namespace Nacre
                        << line << std::endl;
         const unsigned int counter = table.rows().size();
         table.add_row(row);
+        add_balance();
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
 
         const SolvedShell &shell = problem_.solution();
@@ -387,6 +405,7 @@ namespace Nacre
     ResultsTable table(heading_.title, columns);
     VtuOutput    vtu_output(field_options());
 
+    balances_.clear();
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
         prepare_case(cases[k]);
@@ -401,6 +420,7 @@ namespace Nacre
                     restart,
                     log);
         table.add_row(make_row(cases[k]));
+        add_balance();
         log.progress() << progress << progress_line(table.rows().back())
                        << std::endl;
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
@@ -410,7 +430,8 @@ namespace Nacre
     table.write_text(text, report_seconds_);
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
-    log.results() << text.str() << "\nResults: " << base_name()
+    log.results() << text.str() << balances_
+                  << "\nResults: " << base_name()
                   << ".csv (.txt, .tex"
                   << (!write_vtu_             ? ")" :
                       field_format_ == "hdf5" ? ", .xdmf)" :

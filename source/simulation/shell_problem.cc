@@ -282,6 +282,7 @@ namespace Nacre
     solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
                                                           *section_,
                                                           *operator_,
+                                                          *conditions_,
                                                           kinematics_options(),
                                                           exact_solution_,
                                                           displacement_,
@@ -349,6 +350,7 @@ namespace Nacre
       std::make_unique<SolvedShell>(SolvedShell{*discretization_,
                                                 *section_,
                                                 *operator_,
+                                                *conditions_,
                                                 kinematics_options(),
                                                 exact_solution_,
                                                 displacement_,
@@ -390,7 +392,8 @@ namespace Nacre
                            boundary_conditions_,
                            loads_,
                            kinematics_options(),
-                           case_.eta},
+                           case_.eta,
+                           conditions_.get()},
           parameters);
       };
     solver_ =
@@ -417,9 +420,7 @@ namespace Nacre
     judge(accuracy, log);
 
     constraints.distribute(solution);
-    displacement_.reinit(owned,
-                         discretization_->locally_relevant_dofs(),
-                         communicator_);
+    displacement_.reinit(owned, conditions_->relevant_dofs(), communicator_);
     displacement_ = solution;
     if (goal_ != nullptr)
       {
@@ -471,7 +472,7 @@ namespace Nacre
     else
       {
         // z = w - v with w the response to K v.
-        edge  = goal_->edge(*discretization_);
+        edge  = goal_->reaction(*discretization_, *conditions_);
         dual_ = edge;
         Vector without(owned, communicator_), zero(dual_);
         zero = 0.;
