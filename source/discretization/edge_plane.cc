@@ -6,6 +6,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -56,8 +57,8 @@ namespace Nacre
       double allowed;
       /** Largest angle between normals in a cell at the edge (rad). */
       double turn = 0.;
-      /** Normal of the plane that fits best, and the direction within. */
-      Vector3 fitted, sideways;
+      /** Along the edge, the other way in its plane, and the plane's normal. */
+      Vector3 along, sideways, fitted;
       /** Mean conormal orthogonal to the edge, of either sign. */
       Vector3 conormal;
 
@@ -87,10 +88,10 @@ namespace Nacre
         }
       allowed = std::min(2e-5 * extent + 1e-7 * coordinate, 1e-2 * size);
 
-      const auto    axes  = eigenvectors(moments);
-      const Vector3 along = axes[0].second;
-      sideways            = axes[1].second;
-      fitted              = axes[2].second;
+      const auto axes = eigenvectors(moments);
+      along           = axes[0].second;
+      sideways        = axes[1].second;
+      fitted          = axes[2].second;
       for (const auto &node : nodes)
         {
           const Vector3 n = node.conormal - (node.conormal * along) * along;
@@ -99,20 +100,29 @@ namespace Nacre
       conormal = eigenvectors(conormals)[0].second;
     }
 
-    /** The coordinate axis within @p angle (rad) of @p normal, or this. */
+    /**
+     * The normal of a coordinate plane or else of a plane parallel to an axis
+     * that holds the edge as well, within @p angle (rad) of @p normal; if
+     * there is none, this.
+     */
     Vector3
-    take_axis(const EdgeShape &edge, const Vector3 &normal, const double angle)
+    take_simple(const EdgeShape &edge,
+                const Vector3   &normal,
+                const double     angle)
     {
+      std::array<Vector3, spacedim> axes;
+      std::vector<Vector3>          simple;
       for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          Vector3 axis;
-          axis[c] = normal[c] < 0. ? -1. : 1.;
-          if ((normal - axis).norm() <= angle && edge.is_in_plane(axis))
-            {
-              axis[c] = 1.;
-              return axis;
-            }
-        }
+        axes[c][c] = 1.;
+      simple.assign(axes.begin(), axes.end());
+      for (const auto &axis : axes)
+        if (const Vector3 n = cross_product_3d(edge.along, axis);
+            n.norm() > 0.1)
+          simple.push_back(n / n.norm());
+      for (const auto &candidate : simple)
+        if (cross_product_3d(candidate, normal).norm() <= angle &&
+            edge.is_in_plane(candidate))
+          return candidate;
       return normal;
     }
 
@@ -135,7 +145,7 @@ namespace Nacre
   {
     const EdgeShape edge(nodes, extent);
     // Conormals are as precise as the geometry's derivatives in a cell.
-    const double angle   = 1e-3 + 0.1 * edge.turn;
+    const double angle   = 1e-4 + 0.1 * edge.turn;
     const double sagitta = edge.deviation(edge.sideways).first;
     const double off     = edge.deviation(edge.fitted).first;
 
@@ -145,7 +155,7 @@ namespace Nacre
       cross_product_3d(edge.fitted, edge.conormal).norm() <= angle;
     if (conormals_agree && edge.is_in_plane(edge.conormal) &&
         sagitta <= 100. * edge.allowed && !(is_precise && is_across))
-      return take_axis(edge, edge.conormal, angle);
+      return take_simple(edge, edge.conormal, angle);
 
     AssertThrow(edge.is_in_plane(edge.fitted),
                 ExcMessage(
@@ -160,6 +170,6 @@ namespace Nacre
                   "as a symmetry or diaphragm edge must, but is "
                   "curved within the surface: from a straight line " +
                   in_words(edge.deviation(edge.sideways), edge.allowed)));
-    return take_axis(edge, edge.fitted, 3. * off / sagitta + 1e-8);
+    return take_simple(edge, edge.fitted, 3. * off / sagitta + 1e-8);
   }
 } // namespace Nacre

@@ -253,9 +253,8 @@ namespace Nacre
     const SolvedShell &shell = problem_.solution();
     std::ostringstream text;
     text << '\n'
-         << problem_.element_name() << ", p "
-         << shell.discretization.degree() << ", "
-         << shell.discretization.dof_handler().n_dofs() << " dofs: ";
+         << problem_.element_name() << ", p " << shell.discretization.degree()
+         << ", " << shell.discretization.dof_handler().n_dofs() << " dofs: ";
     write_balance(Balance(shell, *origin), *origin, text);
     balances_ += text.str();
   }
@@ -430,8 +429,7 @@ namespace Nacre
     table.write_text(text, report_seconds_);
     if (!heading_.title.empty())
       log.results() << '\n' << heading_.title << std::endl;
-    log.results() << text.str() << balances_
-                  << "\nResults: " << base_name()
+    log.results() << text.str() << balances_ << "\nResults: " << base_name()
                   << ".csv (.txt, .tex"
                   << (!write_vtu_             ? ")" :
                       field_format_ == "hdf5" ? ", .xdmf)" :

@@ -27,8 +27,9 @@ namespace Nacre
    * Unit normal of the plane that holds an edge: that of a symmetry or a
    * diaphragm. The plane lies across the surface. A curved edge tells its
    * plane by itself; of the planes that hold a nearly straight one, that is
-   * taken whose normal is the mean conormal. A coordinate plane is taken
-   * exactly where both can't tell it from the plane found.
+   * taken whose normal is the mean conormal. Coordinate planes, and planes
+   * parallel to an axis, are taken exactly where nodes and conormals can't
+   * tell them from the plane found.
    *
    * Nodes may be off the plane by 2e-5 of the extent of the surface and 1e-7
    * of their coordinates, as those of files with 5 digits or in single
