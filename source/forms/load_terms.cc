@@ -127,7 +127,7 @@ namespace Nacre
   void
   LoadTerms::add_point_forces(const AffineConstraints<double> &constraints,
                               const double                     factor,
-                              Vector                          &vector) const
+                              TrilinosWrappers::MPI::Vector   &vector) const
   {
     const auto &fe = discretization_.scalar_fe();
     for (unsigned int k = 0; k < force_points_.size(); ++k)
