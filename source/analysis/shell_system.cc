@@ -162,7 +162,7 @@ namespace Nacre
   ShellSystem::with_ghosts(const Vector &owned) const
   {
     Vector ghosted(discretization_.locally_owned_dofs(),
-                   discretization_.locally_relevant_dofs(),
+                   conditions_->relevant_dofs(),
                    discretization_.communicator());
     ghosted = owned;
     return ghosted;

@@ -5,13 +5,9 @@
 #include <nacre/discretization/nodal_mapping.h>
 #include <nacre/problem/midsurface.h>
 
-#include <deal.II/base/bounding_box.h>
-
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/mapping_q_cache.h>
-
-#include <limits>
 
 namespace Nacre
 {
@@ -34,83 +30,6 @@ namespace Nacre
       DoFTools::make_hanging_node_constraints(dof_handler, constraints);
       constraints.close();
       return constraints;
-    }
-
-    /** Point and derivatives of a mid-surface given by nodes. */
-    struct LocalSurface
-    {
-      const FiniteElement<dim, spacedim> &fe;
-      const std::vector<Point<spacedim>> &nodes;
-
-      Point<spacedim>
-      position(const Point<dim> &unit) const
-      {
-        Point<spacedim> x;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          x += fe.shape_value(a, unit) * nodes[a];
-        return x;
-      }
-
-      std::array<Tensor<1, spacedim>, dim>
-      tangents(const Point<dim> &unit) const
-      {
-        std::array<Tensor<1, spacedim>, dim> tangents;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          {
-            const auto gradient = fe.shape_grad(a, unit);
-            for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              tangents[alpha] +=
-                gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
-          }
-        return tangents;
-      }
-    };
-
-    /**
-     * The unit point of the nearest point to @p target on one cell: projected
-     * Gauss-Newton from @p start.
-     */
-    Point<dim>
-    project(const LocalSurface    &surface,
-            const ReferenceCell   &cell,
-            const Point<spacedim> &target,
-            Point<dim>             start)
-    {
-      for (unsigned int iteration = 0; iteration < 30; ++iteration)
-        {
-          const auto   difference = target - surface.position(start);
-          const auto   a          = surface.tangents(start);
-          const double a_11 = a[0] * a[0], a_22 = a[1] * a[1],
-                       a_12 = a[0] * a[1];
-          const double b_1 = a[0] * difference, b_2 = a[1] * difference;
-          const double det  = a_11 * a_22 - a_12 * a_12;
-          Point<dim>   next = start;
-          next[0] += (a_22 * b_1 - a_12 * b_2) / det;
-          next[1] += (a_11 * b_2 - a_12 * b_1) / det;
-          // Along an active bound the other coordinate moves alone.
-          if (next[0] < 0. || next[0] > 1.)
-            next[1] = start[1] + b_2 / a_22;
-          if (next[1] < 0. || next[1] > 1.)
-            next[0] = start[0] + b_1 / a_11;
-          for (unsigned int alpha = 0; alpha < dim; ++alpha)
-            next[alpha] = std::min(1., std::max(0., next[alpha]));
-          if (cell == ReferenceCells::Triangle && next[0] + next[1] > 1.)
-            {
-              // Along the slanting edge, (1 - s, s).
-              const auto   along = a[1] - a[0];
-              const double s =
-                start[1] +
-                (along * (difference + (start[0] + start[1] - 1.) * a[0])) /
-                  (along * along);
-              next[1] = std::min(1., std::max(0., s));
-              next[0] = 1. - next[1];
-            }
-          const double step = next.distance(start);
-          start             = next;
-          if (step < 1e-14)
-            break;
-        }
-      return start;
     }
   } // namespace
 
@@ -301,59 +220,6 @@ namespace Nacre
       for (unsigned int b = 0; b < geometry.size(); ++b)
         positions[a] += geometry_to_nodes_(a, b) * geometry[b];
     return positions;
-  }
-
-  SurfacePoint
-  Discretization::locate(const Point<spacedim> &point) const
-  {
-    SurfacePoint best;
-    best.distance = std::numeric_limits<double>::max();
-    for (const auto &cell : dof_handler_.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const auto   nodes = node_positions(cell);
-          const double size  = BoundingBox<spacedim>(nodes).side_length(0) +
-                              BoundingBox<spacedim>(nodes).side_length(1) +
-                              BoundingBox<spacedim>(nodes).side_length(2);
-          const auto nearest =
-            std::min_element(nodes.begin(),
-                             nodes.end(),
-                             [&](const auto &x, const auto &y) {
-                               return x.distance(point) < y.distance(point);
-                             });
-          if (nearest->distance(point) - size >= best.distance)
-            continue;
-          const LocalSurface surface{*scalar_fe_, nodes};
-          const Point<dim>   unit =
-            project(surface,
-                    element_.reference_cell(),
-                    point,
-                    scalar_fe_->unit_support_point(nearest - nodes.begin()));
-          const Point<spacedim> position = surface.position(unit);
-          // The first of several cells that share the point keeps it.
-          if (position.distance(point) < best.distance - 1e-10 * size)
-            {
-              best.cell          = cell;
-              best.unit          = unit;
-              best.position      = position;
-              best.distance      = position.distance(point);
-              best.cell_diameter = size;
-            }
-        }
-
-    const auto global =
-      Utilities::MPI::min_max_avg(best.distance, communicator());
-    best.is_mine =
-      (Utilities::MPI::this_mpi_process(communicator()) == global.min_index);
-    const auto data = Utilities::MPI::broadcast(
-      communicator(),
-      std::make_pair(best.position,
-                     std::make_pair(best.distance, best.cell_diameter)),
-      global.min_index);
-    best.position      = data.first;
-    best.distance      = data.second.first;
-    best.cell_diameter = data.second.second;
-    return best;
   }
 
   std::pair<Point<spacedim>, double>

@@ -2,12 +2,11 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/displacement_conditions.h>
+#include <nacre/discretization/edge_plane.h>
 #include <nacre/discretization/rigid_motions.h>
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <sstream>
@@ -54,36 +53,72 @@ namespace Nacre
       return {normal, conormal};
     }
 
-    /** Eigenvalues, ascending, and eigenvectors (columns) of A. */
-    std::pair<Vector<double>, FullMatrix<double>>
-    eigenpairs(const FullMatrix<double> &A)
+    /** Largest angle (rad) between @p normal and those of the cell's nodes. */
+    double
+    largest_turn(const FEValuesBase<dim, spacedim> &fe_values,
+                 const Vector3                     &normal)
     {
-      LAPACKFullMatrix<double> lapack(A.m());
-      lapack = A;
-      std::pair<Vector<double>, FullMatrix<double>> result;
-      const double bound = 1. + 2. * A.frobenius_norm();
-      lapack.compute_eigenvalues_symmetric(-bound,
-                                           bound,
-                                           0.,
-                                           result.first,
-                                           result.second);
-      return result;
+      double sine = 0.;
+      for (unsigned int q = 0; q < fe_values.n_quadrature_points; ++q)
+        {
+          const auto   &J = fe_values.jacobian(q);
+          const Vector3 a_1({J[0][0], J[1][0], J[2][0]});
+          const Vector3 a_2({J[0][1], J[1][1], J[2][1]});
+          sine = std::max(
+            sine,
+            cross_product_3d(unit(cross_product_3d(a_1, a_2)), normal).norm());
+        }
+      return std::asin(std::min(1., sine));
+    }
+
+    /**
+     * The dofs whose constraints a rank must know: its relevant ones, and
+     * those on which their hanging nodes depend.
+     */
+    IndexSet
+    lines_of_rank(const Discretization &discretization)
+    {
+      IndexSet lines = discretization.locally_relevant_dofs();
+      std::vector<types::global_dof_index> masters;
+      for (const auto &line :
+           discretization.hanging_node_constraints().get_lines())
+        for (const auto &entry : line.entries)
+          masters.push_back(entry.first);
+      std::sort(masters.begin(), masters.end());
+      lines.add_indices(masters.begin(), masters.end());
+      lines.compress();
+      return lines;
     }
   } // namespace
 
   DisplacementConditions::DisplacementConditions(
-    const Discretization     &discretization,
-    const BoundaryConditions &boundary_conditions)
+    const Discretization         &discretization,
+    const BoundaryConditions     &boundary_conditions,
+    const DisplacementConditions *finest)
     : discretization_(discretization)
     , boundary_conditions_(boundary_conditions)
-    , constraints_(discretization.locally_relevant_dofs())
+    , local_lines_(lines_of_rank(discretization))
   {
-    constraints_.merge(discretization.hanging_node_constraints());
+    if (finest != nullptr)
+      planes_ = finest->planes_;
     add_edge_conditions(collect_edge_nodes());
-    add_point_supports();
+    const auto between = add_point_supports();
+    constraints_.reinit(local_lines_);
+    constraints_.merge(discretization.hanging_node_constraints(),
+                       AffineConstraints<double>::no_conflicts_allowed,
+                       true);
     for (const auto &node : nodes_)
       constrain(node.second);
     constraints_.close();
+    constrain_points(between);
+
+    relevant_dofs_ = local_lines_;
+    std::vector<types::global_dof_index> masters;
+    for (const auto &line : constraints_.get_lines())
+      for (const auto &entry : line.entries)
+        masters.push_back(entry.first);
+    std::sort(masters.begin(), masters.end());
+    relevant_dofs_.add_indices(masters.begin(), masters.end());
   }
 
   std::vector<DisplacementConditions::EdgeNode>
@@ -99,7 +134,8 @@ namespace Nacre
                                       fe.get_unit_support_points(),
                                       update_jacobians |
                                         update_quadrature_points);
-    // dofs, id, position, normal, conormal: plain numbers for the exchange.
+    // dofs, id, position, normal, conormal, turn: plain numbers for the
+    // exchange.
     std::vector<double>                  mine;
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     for (const auto &cell :
@@ -128,6 +164,7 @@ namespace Nacre
                 for (const auto &v :
                      {Vector3(fe_values.quadrature_point(a)), normal, conormal})
                   mine.insert(mine.end(), v.begin_raw(), v.end_raw());
+                mine.push_back(largest_turn(fe_values, normal));
               }
           }
     return gather(mine);
@@ -139,7 +176,7 @@ namespace Nacre
     std::vector<EdgeNode> nodes;
     for (const auto &numbers :
          Utilities::MPI::all_gather(discretization_.communicator(), mine))
-      for (unsigned int k = 0; k < numbers.size(); k += 13)
+      for (unsigned int k = 0; k < numbers.size(); k += 14)
         {
           EdgeNode node;
           node.id = static_cast<types::boundary_id>(numbers[k + 3]);
@@ -151,6 +188,7 @@ namespace Nacre
               node.normal[c]   = numbers[k + 7 + c];
               node.conormal[c] = numbers[k + 10 + c];
             }
+          node.turn = numbers[k + 13];
           nodes.push_back(node);
         }
     // A node has the same mean directions on any number of ranks.
@@ -176,6 +214,7 @@ namespace Nacre
           {
             entry->second.normal += node.normal;
             entry->second.conormal += node.conormal;
+            entry->second.turn = std::max(entry->second.turn, node.turn);
           }
       }
     std::vector<EdgeNode> result;
@@ -193,56 +232,11 @@ namespace Nacre
                                        const types::boundary_id     id,
                                        const std::string &source) const
   {
-    const double    tolerance = 1e-8 * discretization_.extent().second;
-    Point<spacedim> centre;
-    Vector3         conormal;
-    std::vector<Point<spacedim>> points;
+    std::vector<PlaneNode> of_edge;
     for (const auto &node : nodes)
       if (node.id == id)
-        {
-          points.push_back(node.position);
-          centre += node.position;
-          conormal += node.conormal;
-        }
-    centre /= points.size();
-    const bool across = conormal.norm() > 1e-8 * points.size();
-
-    const auto holds = [&](const Vector3 &normal) {
-      return std::all_of(points.begin(), points.end(), [&](const auto &x) {
-        return std::abs((x - centre) * normal) <= tolerance;
-      });
-    };
-    // A straight edge lies in many planes: the conormal tells, and a
-    // coordinate plane is taken exactly.
-    Vector3 best;
-    double  alignment = 0.;
-    for (unsigned int c = 0; c < spacedim; ++c)
-      if (holds(axis(c)) &&
-          (!across || std::abs(conormal[c]) > alignment * conormal.norm()))
-        {
-          best      = axis(c);
-          alignment = across ? std::abs(conormal[c]) / conormal.norm() : 1.;
-        }
-    if (alignment > 0.9)
-      return best;
-
-    FullMatrix<double> moments(spacedim, spacedim);
-    for (const auto &x : points)
-      for (unsigned int c = 0; c < spacedim; ++c)
-        for (unsigned int d = 0; d < spacedim; ++d)
-          moments(c, d) += (x - centre)[c] * (x - centre)[d];
-    const auto [values, vectors] = eigenpairs(moments);
-    if (values[1] > 1e-12 * values[2])
-      {
-        for (unsigned int c = 0; c < spacedim; ++c)
-          best[c] = vectors(c, 0);
-        AssertThrow(holds(best),
-                    ExcMessage(source + ": the edge lies in no plane, as a "
-                                        "symmetry or diaphragm edge must."));
-        return best;
-      }
-    // Straight and not in a coordinate plane.
-    return unit(conormal);
+        of_edge.push_back({node.position, node.conormal, node.turn});
+    return plane_of_edge(of_edge, discretization_.extent().second, source);
   }
 
   std::vector<Tensor<1, spacedim>>
@@ -288,7 +282,11 @@ namespace Nacre
         for (const auto &condition : conditions.displacements)
           if (condition.direction == Direction::plane_normal ||
               condition.direction == Direction::within_plane)
-            plane = planes_[id] = plane_normal(nodes, id, condition.source);
+            {
+              if (planes_.count(id) == 0)
+                planes_[id] = plane_normal(nodes, id, condition.source);
+              plane = planes_[id];
+            }
 
         for (const auto &edge_node : nodes)
           {
@@ -345,58 +343,36 @@ namespace Nacre
     return part;
   }
 
-  void
+  std::vector<PointCondition>
   DisplacementConditions::add_point_supports()
   {
-    const auto  communicator = discretization_.communicator();
-    const auto &node_dofs    = discretization_.node_dofs();
-    for (const auto &support : boundary_conditions_.points())
+    std::vector<PointCondition> between;
+    const auto                 &supports = boundary_conditions_.points();
+    for (std::size_t k = 0; k < supports.size(); ++k)
       {
-        double              distance = std::numeric_limits<double>::max();
-        std::vector<double> found(2 * spacedim);
-        std::vector<types::global_dof_index> dofs(node_dofs.size());
-        for (const auto &cell :
-             discretization_.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              const auto nodes = discretization_.node_positions(cell);
-              cell->get_dof_indices(dofs);
-              for (unsigned int a = 0; a < nodes.size(); ++a)
-                if (nodes[a].distance(support.position) < distance)
-                  {
-                    distance = nodes[a].distance(support.position);
-                    for (unsigned int c = 0; c < spacedim; ++c)
-                      {
-                        found[c]            = dofs[node_dofs[spacedim * a + c]];
-                        found[spacedim + c] = nodes[a][c];
-                      }
-                  }
-            }
-        const auto best = Utilities::MPI::min_max_avg(distance, communicator);
-        found = Utilities::MPI::broadcast(communicator, found, best.min_index);
-
-        Node node;
-        for (unsigned int c = 0; c < spacedim; ++c)
+        const auto &support = supports[k];
+        const auto  place =
+          place_point(discretization_, support.position, support.source);
+        if (!place.is_node)
           {
-            node.dofs[c]     = static_cast<types::global_dof_index>(found[c]);
-            node.position[c] = found[spacedim + c];
+            for (const auto &condition : support.displacements)
+              between.push_back({k,
+                                 static_cast<unsigned int>(condition.direction),
+                                 place,
+                                 condition.value(place.position),
+                                 &condition.source});
+            continue;
           }
-        std::ostringstream message;
-        message << support.source
-                << ": no node lies there; the nearest one is ("
-                << node.position[0] << ", " << node.position[1] << ", "
-                << node.position[2] << ").";
-        AssertThrow(best.min <= 1e-6 * discretization_.extent().second,
-                    ExcMessage(message.str()));
-        Node &entry    = nodes_[node.dofs[0]];
-        entry.dofs     = node.dofs;
-        entry.position = node.position;
+        Node &node    = nodes_[place.dofs[0][0]];
+        node.dofs     = place.dofs[0];
+        node.position = place.position;
         for (const auto &condition : support.displacements)
-          entry.components.push_back(
+          node.components.push_back(
             {axis(static_cast<unsigned int>(condition.direction)),
              condition.value(node.position),
              &condition.source});
       }
+    return between;
   }
 
   std::vector<DisplacementConditions::Component>
@@ -480,8 +456,7 @@ namespace Nacre
         const auto        &line  = basis[k];
         const unsigned int pivot = pivots[k];
         const auto         dof   = node.dofs[pivot];
-        if (!discretization_.locally_relevant_dofs().is_element(dof) ||
-            constraints_.is_constrained(dof))
+        if (!local_lines_.is_element(dof) || constraints_.is_constrained(dof))
           continue;
         constraints_.add_line(dof);
         for (unsigned int c = 0; c < spacedim; ++c)
@@ -489,6 +464,46 @@ namespace Nacre
             constraints_.add_entry(dof, node.dofs[c], -line.direction[c]);
         constraints_.set_inhomogeneity(dof, line.value);
       }
+  }
+
+  void
+  DisplacementConditions::constrain_points(
+    const std::vector<PointCondition> &conditions)
+  {
+    if (conditions.empty())
+      return;
+    points_ = PointConstraints(discretization_, conditions, constraints_);
+    // All ranks know these lines: whatever depends on them must not keep
+    // them as free.
+    auto pivots = points_.pivots();
+    std::sort(pivots.begin(), pivots.end());
+    local_lines_.add_indices(pivots.begin(), pivots.end());
+    AffineConstraints<double> all(local_lines_);
+    all.merge(constraints_,
+              AffineConstraints<double>::no_conflicts_allowed,
+              true);
+    points_.add_to(all);
+    all.close();
+    constraints_.copy_from(all);
+  }
+
+  std::vector<DisplacementConditions::HeldNode>
+  DisplacementConditions::held_nodes() const
+  {
+    std::vector<HeldNode> result;
+    for (const auto &[dof, node] : nodes_)
+      if (!node.components.empty())
+        result.push_back({node.position, node.dofs});
+    return result;
+  }
+
+  std::set<types::boundary_id>
+  DisplacementConditions::edges() const
+  {
+    std::set<types::boundary_id> ids;
+    for (const auto &entry : boundary_conditions_.edges())
+      ids.insert(entry.first);
+    return ids;
   }
 
   std::vector<std::string>
@@ -499,6 +514,9 @@ namespace Nacre
     for (const auto &entry : nodes_)
       for (const auto &component : entry.second.components)
         motions.hold_displacement(entry.second.position, component.direction);
+    for (const auto &condition : points_.conditions())
+      motions.hold_displacement(condition.place.position,
+                                axis(condition.component));
     for (const auto &axis : rotation_axes_)
       motions.hold_rotation(axis);
     return motions.free_motions();

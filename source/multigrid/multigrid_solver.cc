@@ -128,34 +128,27 @@ namespace Nacre
     Element element = fine.element();
     if (!has_coarser_mesh)
       element.degree = lowest_degree;
-    auto level = std::make_unique<Level>();
-    try
-      {
-        level->own_discretization = std::make_unique<Discretization>(
-          has_coarser_mesh ? coarsen(shell_.midsurface, fine.triangulation()) :
-                             copy(shell_.midsurface, fine.triangulation()),
-          [this](const auto &cell, const auto &unit) {
-            return shell_.midsurface.position(cell, unit);
-          },
-          element,
-          mapping_degree_);
-        level->conditions =
-          std::make_unique<DisplacementConditions>(*level->own_discretization,
-                                                   shell_.boundary_conditions);
-        level->shell_operator =
-          std::make_unique<ShellOperator>(*level->own_discretization,
-                                          shell_.section,
-                                          shell_.boundary_conditions,
-                                          shell_.loads,
-                                          shell_.kinematics_options,
-                                          shell_.eta);
-      }
-    catch (const ExcMessage &)
-      {
-        // On all ranks: a supported point is no node of that mesh, or a force
-        // lies too far from it.
-        return false;
-      }
+    auto level                = std::make_unique<Level>();
+    level->own_discretization = std::make_unique<Discretization>(
+      has_coarser_mesh ? coarsen(shell_.midsurface, fine.triangulation()) :
+                         copy(shell_.midsurface, fine.triangulation()),
+      [this](const auto &cell, const auto &unit) {
+        return shell_.midsurface.position(cell, unit);
+      },
+      element,
+      mapping_degree_);
+    level->own_discretization->set_coarse_level();
+    level->conditions =
+      std::make_unique<DisplacementConditions>(*level->own_discretization,
+                                               shell_.boundary_conditions,
+                                               shell_.conditions);
+    level->shell_operator =
+      std::make_unique<ShellOperator>(*level->own_discretization,
+                                      shell_.section,
+                                      shell_.boundary_conditions,
+                                      shell_.loads,
+                                      shell_.kinematics_options,
+                                      shell_.eta);
     level->discretization = level->own_discretization.get();
     if (level->discretization->dof_handler().n_dofs() >=
         fine.dof_handler().n_dofs())

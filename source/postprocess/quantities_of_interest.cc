@@ -6,6 +6,7 @@
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/postprocess/reactions.h>
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/midsurface.h>
 
@@ -58,14 +59,7 @@ namespace Nacre
                             const std::optional<Vector3> &direction,
                             const std::string            &where)
     {
-      const auto         place = discretization.locate(point);
-      std::ostringstream message;
-      message << where << ": the point lies off the mid-surface by "
-              << place.distance << "; the nearest point of the mesh is ("
-              << place.position[0] << ", " << place.position[1] << ", "
-              << place.position[2] << ").";
-      AssertThrow(place.distance <= 0.02 * place.cell_diameter,
-                  ExcMessage(message.str()));
+      const auto                    place = discretization.locate(point, where);
       TrilinosWrappers::MPI::Vector g(discretization.locally_owned_dofs(),
                                       discretization.communicator());
       if (place.is_mine)
@@ -120,74 +114,6 @@ namespace Nacre
               }
           }
       return Utilities::MPI::max(maximum, discretization.communicator());
-    }
-
-    using EdgeDisplacement = std::function<Vector3(const Point<spacedim> &)>;
-    using BoundaryIds      = std::set<types::boundary_id>;
-
-    /**
-     * The displacement @p virtual_displacement of the nodes of an edge, hanging
-     * nodes following.
-     */
-    TrilinosWrappers::MPI::Vector
-    edge_displacement(const Discretization   &discretization,
-                      const BoundaryIds      &ids,
-                      const EdgeDisplacement &virtual_displacement)
-    {
-      const auto                   &node_dofs = discretization.node_dofs();
-      TrilinosWrappers::MPI::Vector v(discretization.locally_owned_dofs(),
-                                      discretization.communicator());
-      std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned() && cell->at_boundary())
-          for (const auto face : cell->face_indices())
-            if (cell->at_boundary(face) &&
-                ids.count(cell->face(face)->boundary_id()) > 0)
-              {
-                const auto nodes = discretization.node_positions(cell);
-                cell->get_dof_indices(dofs);
-                for (const unsigned int a : discretization.face_nodes(face))
-                  for (unsigned int c = 0; c < spacedim; ++c)
-                    v(dofs[node_dofs[spacedim * a + c]]) =
-                      virtual_displacement(nodes[a])[c];
-              }
-      v.compress(VectorOperation::insert);
-      discretization.hanging_node_constraints().distribute(v);
-      return v;
-    }
-
-    /** Its virtual work with the residual. */
-    double
-    virtual_work(const SolvedShell      &shell,
-                 const BoundaryIds      &ids,
-                 const EdgeDisplacement &virtual_displacement)
-    {
-      return shell.residual *
-             edge_displacement(shell.discretization, ids, virtual_displacement);
-    }
-
-    /**
-     * Reaction moment along @p direction about @p origin: the nodes' forces
-     * and the work of the rotation condition. The latter enters the nodes'
-     * residual on a rigid rotation already, with the opposite share of the
-     * nodes inside: formulation.md.
-     */
-    double
-    reaction_moment(const SolvedShell     &shell,
-                    const BoundaryIds     &ids,
-                    const Vector3         &direction,
-                    const Point<spacedim> &origin)
-    {
-      const double forces =
-        virtual_work(shell, ids, [&](const Point<spacedim> &x) {
-          return cross_product_3d(direction, x - origin);
-        });
-      Vector3 moment;
-      for (const auto id : ids)
-        moment +=
-          shell.shell_operator.rotation_reaction(id, shell.displacement);
-      return forces - direction * moment;
     }
 
     /** Words of a kind and its arguments. */
@@ -367,7 +293,32 @@ namespace Nacre
       };
     }
 
-    /** "DIRECTION of EDGE" of a reaction or, "about (point)", of its moment */
+    /** "EDGE, point (x, y, z), ...", or "all" */
+    Supports
+    parse_supports(const std::string &text,
+                   const std::string &where,
+                   const Midsurface  &midsurface,
+                   const Constants   &constants)
+    {
+      Supports supports;
+      supports.where = where;
+      for (const auto &item : Text::split(text, ',', where))
+        if (Phrase phrase{item, where}; phrase.take("point") &&
+                                        !phrase.text.empty() &&
+                                        phrase.text.front() == '(')
+          supports.points.push_back(
+            evaluate_point(phrase.text, where, constants));
+        else if (item == "all")
+          supports.all = true;
+        else
+          {
+            const auto ids = midsurface.edge_ids(item, where);
+            supports.edges.insert(ids.begin(), ids.end());
+          }
+      return supports;
+    }
+
+    /** "DIRECTION of SUPPORTS" of a reaction or, "about (point)", its moment */
     void
     parse_reaction(QuantitiesOfInterest::Quantity &quantity,
                    Phrase                          phrase,
@@ -379,28 +330,35 @@ namespace Nacre
       const auto         direction =
         parse_direction(phrase.up_to("of"), where, constants);
       AssertThrow(direction && !phrase.text.empty(),
-                  ExcMessage(where + ": write 'reaction x of EDGE' or "
-                                     "'moment x of EDGE'."));
-      const auto ids =
-        midsurface.edge_ids(phrase.up_to(is_moment ? "about" : ";"), where);
+                  ExcMessage(where +
+                             ": write 'reaction x of EDGE' or 'moment x of "
+                             "EDGE', with 'EDGE, point (x, y, z), ...' or "
+                             "'all' for several supports."));
+      const auto supports =
+        parse_supports(phrase.up_to(is_moment ? "about" : ";"),
+                       where,
+                       midsurface,
+                       constants);
       if (!is_moment)
         {
-          const EdgeDisplacement along = [=](const auto &) {
-            return *direction;
-          };
           quantity.evaluate = [=](const SolvedShell &shell) {
-            return virtual_work(shell, ids, along);
+            return reaction(shell, supports, *direction);
           };
-          quantity.goal.edge = [=](const Discretization &discretization) {
-            return edge_displacement(discretization, ids, along);
-          };
+          quantity.goal.reaction =
+            [=](const Discretization         &discretization,
+                const DisplacementConditions &conditions) {
+              return support_displacement(discretization,
+                                          conditions,
+                                          supports,
+                                          *direction);
+            };
           return;
         }
       const auto origin = phrase.text.empty() ?
                             Point<spacedim>() :
                             evaluate_point(phrase.text, where, constants);
       quantity.evaluate = [=](const SolvedShell &shell) {
-        return reaction_moment(shell, ids, *direction, origin);
+        return reaction_moment(shell, supports, *direction, origin);
       };
     }
 
@@ -483,11 +441,18 @@ namespace Nacre
       text_,
       "'name = kind [-> reference]; ...'. Kinds: displacement "
       "x|y|z|normal|(a, b, c) at (point); maximum displacement; energy; "
-      "membrane energy; bending energy; edge energy; reaction x|y|z of EDGE; "
-      "moment x|y|z of EDGE [about (point)]; L2 error; H1 error; energy "
+      "membrane energy; bending energy; edge energy; reaction x|y|z of "
+      "SUPPORTS; "
+      "moment x|y|z of SUPPORTS [about (point)], SUPPORTS 'EDGE, point (x, y, "
+      "z), ...' or 'all', each node once; L2 error; H1 error; energy "
       "error; in dynamics kinetic energy, total energy, momentum x|y|z, "
       "angular momentum x|y|z about the origin. Units: those of the "
       "quantity.");
+    add_parameter("Balance about",
+                  balance_text_,
+                  "A point '(x, y, z)': the resultants of loads and reactions "
+                  "and their moments about the point are printed after the "
+                  "results. Units: length.");
   }
 
   std::vector<std::string>
@@ -506,6 +471,10 @@ namespace Nacre
   {
     const std::string parameter = "Quantities/Quantities";
     quantities_.clear();
+    balance_origin_.reset();
+    if (!balance_text_.empty())
+      balance_origin_ =
+        evaluate_point(balance_text_, "Quantities/Balance about", constants);
     std::set<std::string> names;
     for (const auto &entry : Text::split(text_, ';', parameter))
       {

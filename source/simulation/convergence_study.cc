@@ -6,6 +6,7 @@
 #include <nacre/base/output_file.h>
 #include <nacre/base/parameter_input.h>
 #include <nacre/base/text.h>
+#include <nacre/postprocess/reactions.h>
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/checkpoint.h>
@@ -318,6 +319,21 @@ namespace Nacre
     return row;
   }
 
+  void
+  ConvergenceStudy::add_balance()
+  {
+    const auto &origin = quantities_.balance_origin();
+    if (!origin)
+      return;
+    const SolvedShell &shell = problem_.solution();
+    std::ostringstream text;
+    text << '\n'
+         << problem_.element_name() << ", p " << shell.discretization.degree()
+         << ", " << shell.discretization.dof_handler().n_dofs() << " dofs: ";
+    write_balance(Balance(shell, *origin), *origin, text);
+    balances_ += text.str();
+  }
+
   std::string
   ConvergenceStudy::progress_line(const ResultsTable::Row &row) const
   {
@@ -438,6 +454,7 @@ namespace Nacre
                        << line << std::endl;
         const unsigned int counter = table.rows().size();
         table.add_row(row);
+        add_balance();
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
 
         const SolvedShell &shell = problem_.solution();
@@ -481,6 +498,7 @@ namespace Nacre
     std::string  paths;
     const auto   n_warnings = log.n_warnings();
 
+    balances_.clear();
     for (unsigned int k = 0; k < cases.size(); ++k)
       {
         prepare_case(cases[k]);
@@ -494,6 +512,7 @@ namespace Nacre
         set_up_case(log);
         paths += follow_path(path_name(cases, cases[k]), restart, log) + '\n';
         table.add_row(make_row(cases[k]));
+        add_balance();
         log.progress() << progress << progress_line(table.rows().back())
                        << std::endl;
         run_on_root(communicator_, [&]() { table.write_files(base_name()); });
@@ -511,7 +530,7 @@ namespace Nacre
     const auto        &rows       = table.rows();
     std::ostringstream text;
     table.write_text(text, report_seconds_);
-    text << "\nResults: " << base_name() << ".csv (.txt, .tex"
+    text << balances_ << "\nResults: " << base_name() << ".csv (.txt, .tex"
          << (!has_fields             ? ")" :
              field_format_ == "hdf5" ? ", .xdmf)" :
                                        ", .pvd)")

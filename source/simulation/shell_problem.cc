@@ -353,6 +353,7 @@ namespace Nacre
     solution_ = std::make_unique<SolvedShell>(SolvedShell{*discretization_,
                                                           *section_,
                                                           *operator_,
+                                                          *conditions_,
                                                           kinematics_options(),
                                                           exact_solution_,
                                                           displacement_,
@@ -414,6 +415,7 @@ namespace Nacre
       std::make_unique<SolvedShell>(SolvedShell{*discretization_,
                                                 *section_,
                                                 *operator_,
+                                                *conditions_,
                                                 kinematics_options(),
                                                 exact_solution_,
                                                 displacement_,
@@ -455,7 +457,8 @@ namespace Nacre
                            boundary_conditions_,
                            loads_,
                            kinematics_options(),
-                           case_.eta},
+                           case_.eta,
+                           conditions_.get()},
           parameters);
       };
     solver_ =
@@ -493,9 +496,7 @@ namespace Nacre
     judge(accuracy, log);
 
     constraints.distribute(solution);
-    displacement_.reinit(owned,
-                         discretization_->locally_relevant_dofs(),
-                         communicator_);
+    displacement_.reinit(owned, conditions_->relevant_dofs(), communicator_);
     displacement_ = solution;
     if (goal_ != nullptr)
       {
@@ -547,7 +548,7 @@ namespace Nacre
     else
       {
         // z = w - v with w the response to K v.
-        edge  = goal_->edge(*discretization_);
+        edge  = goal_->reaction(*discretization_, *conditions_);
         dual_ = edge;
         Vector without(owned, communicator_), zero(dual_);
         zero = 0.;

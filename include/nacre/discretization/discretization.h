@@ -22,6 +22,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Nacre
@@ -159,9 +160,30 @@ namespace Nacre
     node_positions(
       const Triangulation<dim, spacedim>::active_cell_iterator &cell) const;
 
-    /** The point of the mid-surface nearest to @p point; collective. */
+    /**
+     * The point of the mid-surface nearest to @p point, in the lowest of the
+     * cells that share it; collective. Throws for a point off the mid-surface
+     * and for one at both lips of a slit, unless this is a coarse level.
+     * @param source begins the messages
+     */
     SurfacePoint
-    locate(const Point<spacedim> &point) const;
+    locate(const Point<spacedim> &point, const std::string &source) const;
+
+    /**
+     * Say that the mesh is a coarser level of another one, on which locate()
+     * finds what the user states: here the nearest point will do.
+     */
+    void
+    set_coarse_level()
+    {
+      is_coarse_level_ = true;
+    }
+
+    bool
+    is_coarse_level() const
+    {
+      return is_coarse_level_;
+    }
 
     /**
      * Extent of the mid-surface: the diagonal of its bounding box (length),
@@ -212,6 +234,7 @@ namespace Nacre
     /** Geometry's shape functions at the displacement nodes. */
     FullMatrix<double>                      geometry_to_nodes_;
     std::unique_ptr<Mapping<dim, spacedim>> mapping_;
+    bool                                    is_coarse_level_ = false;
   };
 } // namespace Nacre
 

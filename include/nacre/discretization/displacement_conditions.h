@@ -4,10 +4,11 @@
 #ifndef nacre_discretization_displacement_conditions_h
 #define nacre_discretization_displacement_conditions_h
 
-#include <nacre/discretization/discretization.h>
+#include <nacre/discretization/point_constraints.h>
 #include <nacre/problem/boundary_conditions.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace Nacre
   /**
    * Prescribed displacements as constraints of nodes: every node collects the
    * components that its edges and point supports prescribe; components that
-   * depend on each other must agree.
+   * depend on each other must agree. Supports of points between the nodes are
+   * PointConstraints.
    */
   class DisplacementConditions
   {
@@ -24,16 +26,48 @@ namespace Nacre
     /**
      * Collective. Throws, on all ranks, for contradicting conditions, for a
      * symmetry or diaphragm edge that isn't plane, and for a point support
-     * that is no node.
+     * that lies off the mesh or on both lips of a slit.
+     * @param finest conditions on a finer mesh of the surface, from which the
+     *   planes of symmetry are taken
      */
-    DisplacementConditions(const Discretization     &discretization,
-                           const BoundaryConditions &boundary_conditions);
+    DisplacementConditions(const Discretization         &discretization,
+                           const BoundaryConditions     &boundary_conditions,
+                           const DisplacementConditions *finest = nullptr);
 
     /** Hanging nodes and prescribed displacements on the relevant dofs. */
     const AffineConstraints<double> &
     constraints() const
     {
       return constraints_;
+    }
+
+    /** The dofs that constraints() mentions, and the locally relevant ones. */
+    const IndexSet &
+    relevant_dofs() const
+    {
+      return relevant_dofs_;
+    }
+
+    /** A node of which a displacement is prescribed. */
+    struct HeldNode
+    {
+      Point<spacedim>                               position;
+      std::array<types::global_dof_index, spacedim> dofs;
+    };
+
+    /** All of them on all ranks, each once. */
+    std::vector<HeldNode>
+    held_nodes() const;
+
+    /** Boundary ids of all edges with conditions. */
+    std::set<types::boundary_id>
+    edges() const;
+
+    /** Supports of points between the nodes. */
+    const PointConstraints &
+    points_between_nodes() const
+    {
+      return points_;
     }
 
     /**
@@ -66,6 +100,8 @@ namespace Nacre
       Point<spacedim>                               position;
       Vector3                                       normal;
       Vector3                                       conormal;
+      /** Largest angle (rad) between normals there and in the cell. */
+      double turn = 0.;
     };
 
     /** One prescribed component direction . u = value of a node. */
@@ -113,8 +149,13 @@ namespace Nacre
     void
     add_edge_conditions(const std::vector<EdgeNode> &nodes);
 
-    void
+    /** Supports of nodes; returns those of points between the nodes. */
+    std::vector<PointCondition>
     add_point_supports();
+
+    /** Add @p conditions to the closed constraints of nodes. */
+    void
+    constrain_points(const std::vector<PointCondition> &conditions);
 
     /**
      * Orthonormal components that say the same as the node's, first come first;
@@ -136,7 +177,11 @@ namespace Nacre
 
     const Discretization     &discretization_;
     const BoundaryConditions &boundary_conditions_;
+    /** Dofs whose constraints this rank knows. */
+    IndexSet                  local_lines_;
+    IndexSet                  relevant_dofs_;
     AffineConstraints<double> constraints_;
+    PointConstraints          points_;
 
     /** By the node's first dof, the same on all ranks. */
     std::map<types::global_dof_index, Node> nodes_;

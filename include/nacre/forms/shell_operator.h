@@ -6,6 +6,7 @@
 
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/kinematics.h>
+#include <nacre/forms/load_terms.h>
 #include <nacre/forms/mass_terms.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -30,7 +31,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** Throws if a point force lies off the mesh; collective. */
+    /** Throws as LoadTerms does; collective. */
     ShellOperator(const Discretization        &discretization,
                   const SectionLaw            &section,
                   const BoundaryConditions    &boundary_conditions,
@@ -85,10 +86,16 @@ namespace Nacre
     Energies
     energies(const Vector &u) const;
 
+    /** Add the loads (force) at the ghosted displacement @p u; collective. */
+    void
+    add_loads(const Vector &u, Vector &result) const;
+
     /**
      * The virtual work of the rotation conditions of the edge @p id on a
      * rigid rotation about the three axes: the part of the reaction moment
-     * that the nodes' forces don't carry (force times length).
+     * that the nodes' forces don't carry (force times length). The rotation is
+     * that of the undeformed surface in linear kinematics, else of the
+     * deformed one.
      */
     Tensor<1, spacedim>
     rotation_reaction(const types::boundary_id id, const Vector &u) const;
@@ -136,44 +143,17 @@ namespace Nacre
                     ScratchData &scratch,
                     CopyData    &copy) const;
 
-    void
-    subtract_surface_loads(const ShellCellValues  &values,
-                           dealii::Vector<double> &residual) const;
-
-    /**
-     * Pressure along the deformed normal on the deformed area: the force per
-     * reference area is p phi,1 x phi,2; with its derivative.
-     */
-    void
-    subtract_following_pressure(const ShellCellValues        &values,
-                                const dealii::Vector<double> &u,
-                                LocalTerms                   &terms) const;
-
-    void
-    add_edge_loads(const types::boundary_id      id,
-                   const ShellEdgeValues        &edge,
-                   const dealii::Vector<double> &u,
-                   Kinematics                   &kinematics,
-                   LocalTerms                   &terms) const;
-
-    /** Add the virtual work of point forces times @p factor. */
-    void
-    add_point_forces(const AffineConstraints<double> &constraints,
-                     const double                     factor,
-                     Vector                          &vector) const;
-
-    void
-    locate_point_forces();
-
     const Discretization       &discretization_;
     const SectionLaw           &section_;
     const BoundaryConditions   &boundary_conditions_;
     const Loads                &loads_;
+    LoadTerms                   load_terms_;
     EdgePenalty                 penalty_;
     std::unique_ptr<Kinematics> kinematics_;
     /** Whether to assemble the symmetric part of the tangent. */
-    const bool                symmetrizes_;
-    std::vector<SurfacePoint> force_points_;
+    const bool symmetrizes_;
+    /** Whether moments take the deformed positions. */
+    const bool has_deformed_levers_;
   };
 } // namespace Nacre
 

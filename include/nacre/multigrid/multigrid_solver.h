@@ -19,6 +19,7 @@ namespace Nacre
 {
   class BoundaryConditions;
   class Discretization;
+  class DisplacementConditions;
   class Loads;
   class Midsurface;
   class SectionLaw;
@@ -32,6 +33,8 @@ namespace Nacre
     const Loads                &loads;
     const KinematicsOptions     kinematics_options;
     const std::optional<double> eta;
+    /** On the finest mesh, for the planes of symmetry of all levels. */
+    const DisplacementConditions *conditions = nullptr;
   };
 
   /**

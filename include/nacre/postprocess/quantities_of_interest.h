@@ -18,6 +18,7 @@
 
 namespace Nacre
 {
+  class DisplacementConditions;
   class ExactSolution;
   class MassTerms;
   class Midsurface;
@@ -26,11 +27,13 @@ namespace Nacre
   /** A solved shell, as the quantities see it. */
   struct SolvedShell
   {
-    const Discretization   &discretization;
-    const SectionLaw       &section;
-    const ShellOperator    &shell_operator;
-    const KinematicsOptions kinematics;
-    const ExactSolution    &exact_solution;
+    const Discretization &discretization;
+    const SectionLaw     &section;
+    const ShellOperator  &shell_operator;
+    /** Which nodes are held: the same at all times. */
+    const DisplacementConditions &conditions;
+    const KinematicsOptions       kinematics;
+    const ExactSolution          &exact_solution;
     /** Ghosted displacement (length). */
     const TrilinosWrappers::MPI::Vector &displacement;
     /** K u - f (force) without constraints. */
@@ -47,21 +50,23 @@ namespace Nacre
    * What makes a quantity the goal of an error estimate: its derivative at
    * any displacement, or that it is the energy. A quantity Q(u) is linear with
    * one of
-   *   load: Q(u) = g . u
-   *   edge: Q(u) = v . (K u - f), the virtual work of the residual on the
-   *         displacement v of an edge
+   *   load:     Q(u) = g . u
+   *   reaction: Q(u) = v . (K u - f), the virtual work of the residual on the
+   *             displacement v of supports
    */
   struct GoalFunctional
   {
     using Vector = TrilinosWrappers::MPI::Vector;
     std::function<Vector(const Discretization &)> load;
-    std::function<Vector(const Discretization &)> edge;
-    bool                                          is_energy = false;
+    std::function<Vector(const Discretization &,
+                         const DisplacementConditions &)>
+         reaction;
+    bool is_energy = false;
 
     bool
     is_known() const
     {
-      return load || edge || is_energy;
+      return load || reaction || is_energy;
     }
   };
 
@@ -98,13 +103,22 @@ namespace Nacre
       return quantities_;
     }
 
+    /** Where to take the moments of a Balance; none if it isn't asked for. */
+    const std::optional<Point<3>> &
+    balance_origin() const
+    {
+      return balance_origin_;
+    }
+
     /** Kinds, for messages and --list. */
     static std::vector<std::string>
     kinds();
 
   private:
-    std::string           text_;
-    std::vector<Quantity> quantities_;
+    std::string             text_;
+    std::string             balance_text_;
+    std::optional<Point<3>> balance_origin_;
+    std::vector<Quantity>   quantities_;
   };
 } // namespace Nacre
 

@@ -160,11 +160,18 @@ namespace Nacre
     ResultsTable::Row
     make_row(const ShellCase &shell_case) const;
 
+    /** Add the balance of forces of the case just solved, if asked for. */
+    void
+    add_balance();
+
     std::string
     progress_line(const ResultsTable::Row &row) const;
 
     VtuOutput::Options
     field_options() const;
+
+    /** What follows the table of results. */
+    std::string balances_;
 
     const MPI_Comm communicator_;
     Heading        heading_;
