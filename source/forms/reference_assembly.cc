@@ -485,7 +485,8 @@ namespace Nacre
   {
     for (const auto &point_force : loads_.point_forces())
       {
-        const auto place = discretization_.locate(point_force.position);
+        const auto place =
+          discretization_.locate(point_force.position, point_force.source);
         if (!place.is_mine)
           continue;
         const auto              force = point_force.force(point_force.position);
