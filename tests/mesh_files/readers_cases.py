@@ -209,6 +209,12 @@ good("sides_of_plane_elements", MESH.replace("S4R", "CPS4R") +
 good("sides_of_calculix", MESH + "*SURFACE, NAME=Root\n1, S6\n")
 good("nodes_as_a_surface", DECK.replace("=Root", "=Left") +
      "*SURFACE, NAME=Root, TYPE=NODE\nLeft, 1.\n")
+good("surface_with_the_name_of_sets", MESH.replace("=SHELL", "=ROOT") + """\
+*NSET, NSET=root
+3
+*SURFACE, NAME=Root
+1, E4
+""")
 good("faces_that_are_not", MESH + """\
 *SURFACE, NAME=Root
 1, E4
