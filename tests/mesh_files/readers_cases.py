@@ -130,7 +130,7 @@ good("generate", MESH + """\
 1, 999999999999
 *ELSET, ELSET=Out, GENERATE
 1, 4
-""", notes=[["'Out'", "doesn't define", "999999999993 more"]])
+""", notes=[["'Out'", "doesn't define", "7 and 999999999994 more"]])
 good("undefined_members", DECK + """\
 *NSET, NSET=Probe
 3, 77, Nowhere
@@ -249,7 +249,7 @@ good("hidden_set", PART.format(DECK) + ASSEMBLY.format(
     "", "*NSET, NSET=Root, INSTANCE=Plate-1\n3, 6\n"), edges="Plate-1.Root")
 good("reference_point", PART.format(MESH) + ASSEMBLY.format(
     "", "*NODE\n1, 3, 0.5, 0\n*NSET, NSET=RP\n1,\n" + SET),
-     notes=[["1 node", "cell"]])
+     notes=[["node 1 at (3, 0.5, 0)", "no cell"]])
 MOVED = """\
 1, -5, 1, 0.5
 2, -4, 1, 0.5
