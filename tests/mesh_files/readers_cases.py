@@ -239,6 +239,12 @@ ASSEMBLY = """\
 SET = "*NSET, NSET=Root, INSTANCE=plate-1\n1, 4\n"
 good("part_alone", PART.format(DECK))
 good("assembly", PART.format(MESH) + ASSEMBLY.format("", SET), ranks=(1, 2))
+good("sides_in_the_assembly", PART.format(MESH) + ASSEMBLY.format("", """\
+*ELSET, ELSET=_Root_E4, INTERNAL, INSTANCE=Plate-1
+1
+*SURFACE, TYPE=ELEMENT, NAME=Root
+_Root_E4, E4
+"""))
 good("set_of_the_part", PART.format(DECK) + ASSEMBLY.format("", ""))
 good("set_by_instance", PART.format(DECK) + ASSEMBLY.format(
     "", "*NSET, NSET=Left\nPlate-1.Root\n"), edges="Left")
@@ -314,6 +320,34 @@ good("triangles", MESH.replace("S4R", "S3").replace(CELLS, TRIANGLES) + ROOT,
      settings={"Discretization/Element": "triangle"})
 good("all_are_collapsed", MESH.replace(CELLS, COLLAPSED) +
      "*SURFACE, NAME=Root\n2, E4\n2, E1\n",
+     settings={"Discretization/Element": "triangle"},
+     notes=[["taken as triangles"]])
+
+
+
+def middles(cells):
+    """The cells with middles of their sides, and the nodes of these."""
+    places = {int(number): [float(x) for x in rest]
+              for number, *rest in (line.split(",")
+                                    for line in NODES.splitlines())}
+    nodes, lines = {}, []
+    for line in cells.splitlines():
+        number, *corners = (int(word) for word in line.split(","))
+        ends = list(zip(corners, corners[1:] + corners[:1]))
+        sides = [a if a == b else 10 * min(a, b) + max(a, b) for a, b in ends]
+        for (a, b), side in zip(ends, sides):
+            if a != b:
+                nodes[side] = [(x + y) / 2 for x, y in
+                               zip(places[a], places[b])]
+        lines.append(", ".join(map(str, [number, *corners, *sides])) + "\n")
+    return ("".join(f"{number}, {x}, {y}, {z}\n"
+                    for number, (x, y, z) in nodes.items()), "".join(lines))
+
+
+MIDDLES, COLLAPSED_8 = middles(COLLAPSED)
+good("all_of_8_nodes_are_collapsed",
+     DECK.replace(NODES, NODES + MIDDLES).replace("S4R", "S8R")
+     .replace(CELLS, COLLAPSED_8),
      settings={"Discretization/Element": "triangle"},
      notes=[["taken as triangles"]])
 
