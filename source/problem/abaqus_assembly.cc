@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Nacre::Abaqus
 {
@@ -67,11 +68,16 @@ namespace Nacre::Abaqus
     };
 
 
+    /** Nothing doesn't make a set. */
     void
-    append(std::vector<unsigned int>       &result,
-           const std::vector<unsigned int> &more)
+    add(Table<MeshFile::Set>            &sets,
+        const std::string               &name,
+        const std::vector<unsigned int> &members)
     {
-      result.insert(result.end(), more.begin(), more.end());
+      if (members.empty())
+        return;
+      auto &all = sets.item(name).members;
+      all.insert(all.end(), members.begin(), members.end());
     }
 
 
@@ -107,8 +113,7 @@ namespace Nacre::Abaqus
         for (MeshFile::Set set : table.items())
           {
             make_unique(set.members);
-            if (!set.members.empty())
-              result.push_back(std::move(set));
+            result.push_back(std::move(set));
           }
         return result;
       };
@@ -224,9 +229,9 @@ namespace Nacre::Abaqus
             for (const std::string &name :
                  names(scope, set, resolver_.sets(kind, 0)))
               {
-                append(node_sets_.item(name).members, found.nodes);
-                append(cell_sets_.item(name).members, found.cells);
-                append(line_sets_.item(name).members, found.lines);
+                add(node_sets_, name, found.nodes);
+                add(cell_sets_, name, found.cells);
+                add(line_sets_, name, found.lines);
               }
           }
     }
@@ -261,8 +266,8 @@ namespace Nacre::Abaqus
                         const std::string &face,
                         const Members     &members)
     {
-      append(node_aliases_.item(surface).members, members.nodes);
-      append(line_aliases_.item(surface).members, members.lines);
+      add(node_aliases_, surface, members.nodes);
+      add(line_aliases_, surface, members.lines);
       const bool is_numbered = face.size() == 2 &&
                                (face[0] == 'E' || face[0] == 'S') &&
                                face[1] >= '1' && face[1] <= '6';
@@ -295,11 +300,14 @@ namespace Nacre::Abaqus
     Assembler::name_parts()
     {
       for (const Scope &scope : scopes_)
-        for (unsigned int k = 0; k < scope.mesh->mesh.cells.size(); ++k)
+        {
+          std::vector<unsigned int> cells(scope.mesh->mesh.cells.size());
+          std::iota(cells.begin(), cells.end(), scope.first_cell);
           for (const std::string &name :
                std::set<std::string>{scope.name, scope.part->name})
             if (!name.empty())
-              cell_aliases_.item(name).members.push_back(scope.first_cell + k);
+              add(cell_aliases_, name, cells);
+        }
     }
 
 

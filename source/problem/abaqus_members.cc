@@ -231,24 +231,26 @@ namespace Nacre::Abaqus
           result.append(members(kind, home, *set));
           return;
         }
-    for (auto dot = name.find('.'); dot != std::string::npos;
-         dot      = name.find('.', dot + 1))
+    // The name of an instance may have dots of its own.
+    auto dot = name.find('.');
+    while (dot != std::string::npos &&
+           !find_scope(0, name.substr(0, dot)).value_or(0))
+      dot = name.find('.', dot + 1);
+    if (dot == std::string::npos)
       {
-             const auto        home = find_scope(0, name.substr(0, dot));
-             const std::string rest = name.substr(dot + 1);
-             if (!home)
-          continue;
-        if (is_number(rest))
-          add_range(kind,
-                    *home,
-                    {std::stoll(rest), std::stoll(rest), 1},
-                    user,
-                    result);
-        else
-          add_name(kind, *home, rest, user, result);
+        miss(user, "'" + name + "'");
         return;
       }
-    miss(user, "'" + name + "'");
+    const unsigned int home = *find_scope(0, name.substr(0, dot));
+    const std::string  rest = name.substr(dot + 1);
+    if (is_number(rest))
+      add_range(kind,
+                home,
+                {std::stoll(rest), std::stoll(rest), 1},
+                user,
+                result);
+    else
+      add_name(kind, home, rest, user, result);
   }
 
 

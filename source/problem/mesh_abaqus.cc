@@ -460,9 +460,9 @@ namespace Nacre
       range.last  = text_.to_integer(words[1], "the last number");
       if (words.size() == 3)
         range.step = text_.to_integer(words[2], "the step");
-      if (range.step < 1 || range.last < range.first)
+      if (range.first < 0 || range.last < range.first || range.step < 1)
         text_.fail("GENERATE needs 'first, last, step' with "
-                   "first <= last and a step above zero.");
+                   "0 <= first <= last and a step above zero.");
       set_->numbers.push_back(range);
     }
 

@@ -24,23 +24,6 @@ namespace Nacre
     }
 
 
-    [[noreturn]] void
-    fail_at_repeated_node(const MeshFile    &mesh,
-                          const unsigned int cell,
-                          const unsigned int index)
-    {
-      const std::string text = mesh.describe_cell(cell);
-      if (mesh.n_corners(cell) == 3)
-        fail(mesh, text + " has the node " + node(mesh, index) + " twice.");
-      fail(mesh,
-           text + " is a quadrilateral with the node " + node(mesh, index) +
-             " twice, that is a triangle; a mesh can't have both. Mesh "
-             "the surface with quadrilaterals alone (gmsh: "
-             "Mesh.SubdivisionAlgorithm = 1) or with triangles alone "
-             "(Discretization/Element = triangle).");
-    }
-
-
     /** 8-node cells get a centre: they are 9-node cells. */
     std::size_t
     kind(const std::size_t n_nodes)
@@ -66,7 +49,7 @@ namespace Nacre
           std::set<unsigned int> seen;
           for (const unsigned int i : nodes)
             if (!seen.insert(i).second)
-              fail_at_repeated_node(mesh, k, i);
+              fail(mesh, cell + " has the node " + node(mesh, i) + " twice.");
           std::vector<unsigned int> corners(nodes.begin(),
                                             nodes.begin() + mesh.n_corners(k));
           std::sort(corners.begin(), corners.end());

@@ -304,7 +304,8 @@ namespace Nacre
       for (const MeshFile::Set &set : mesh_.cell_sets)
         explain(set.name, "a set of cells, which is a region and no edge");
       for (const std::string &name : mesh_.instances)
-        explain(name, "an instance of a part");
+        if (!name.empty())
+          explain(name, "an instance of a part");
 
       if (!list_.holds(rest_of_boundary))
         {

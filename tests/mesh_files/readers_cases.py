@@ -130,7 +130,7 @@ good("generate", MESH + """\
 1, 999999999999
 *ELSET, ELSET=Out, GENERATE
 1, 4
-""", notes=[["'Out'", "doesn't define", "999999999993 more"]])
+""", notes=[["'Out'", "doesn't define", "7 and 999999999994 more"]])
 good("undefined_members", DECK + """\
 *NSET, NSET=Probe
 3, 77, Nowhere
@@ -209,6 +209,12 @@ good("sides_of_plane_elements", MESH.replace("S4R", "CPS4R") +
 good("sides_of_calculix", MESH + "*SURFACE, NAME=Root\n1, S6\n")
 good("nodes_as_a_surface", DECK.replace("=Root", "=Left") +
      "*SURFACE, NAME=Root, TYPE=NODE\nLeft, 1.\n")
+good("surface_with_the_name_of_sets", MESH.replace("=SHELL", "=ROOT") + """\
+*NSET, NSET=root
+3
+*SURFACE, NAME=Root
+1, E4
+""")
 good("faces_that_are_not", MESH + """\
 *SURFACE, NAME=Root
 1, E4
@@ -233,6 +239,12 @@ ASSEMBLY = """\
 SET = "*NSET, NSET=Root, INSTANCE=plate-1\n1, 4\n"
 good("part_alone", PART.format(DECK))
 good("assembly", PART.format(MESH) + ASSEMBLY.format("", SET), ranks=(1, 2))
+good("sides_in_the_assembly", PART.format(MESH) + ASSEMBLY.format("", """\
+*ELSET, ELSET=_Root_E4, INTERNAL, INSTANCE=Plate-1
+1
+*SURFACE, TYPE=ELEMENT, NAME=Root
+_Root_E4, E4
+"""))
 good("set_of_the_part", PART.format(DECK) + ASSEMBLY.format("", ""))
 good("set_by_instance", PART.format(DECK) + ASSEMBLY.format(
     "", "*NSET, NSET=Left\nPlate-1.Root\n"), edges="Left")
@@ -243,7 +255,7 @@ good("hidden_set", PART.format(DECK) + ASSEMBLY.format(
     "", "*NSET, NSET=Root, INSTANCE=Plate-1\n3, 6\n"), edges="Plate-1.Root")
 good("reference_point", PART.format(MESH) + ASSEMBLY.format(
     "", "*NODE\n1, 3, 0.5, 0\n*NSET, NSET=RP\n1,\n" + SET),
-     notes=[["1 node", "cell"]])
+     notes=[["node 1 at (3, 0.5, 0)", "no cell"]])
 MOVED = """\
 1, -5, 1, 0.5
 2, -4, 1, 0.5
@@ -308,6 +320,34 @@ good("triangles", MESH.replace("S4R", "S3").replace(CELLS, TRIANGLES) + ROOT,
      settings={"Discretization/Element": "triangle"})
 good("all_are_collapsed", MESH.replace(CELLS, COLLAPSED) +
      "*SURFACE, NAME=Root\n2, E4\n2, E1\n",
+     settings={"Discretization/Element": "triangle"},
+     notes=[["taken as triangles"]])
+
+
+
+def middles(cells):
+    """The cells with middles of their sides, and the nodes of these."""
+    places = {int(number): [float(x) for x in rest]
+              for number, *rest in (line.split(",")
+                                    for line in NODES.splitlines())}
+    nodes, lines = {}, []
+    for line in cells.splitlines():
+        number, *corners = (int(word) for word in line.split(","))
+        ends = list(zip(corners, corners[1:] + corners[:1]))
+        sides = [a if a == b else 10 * min(a, b) + max(a, b) for a, b in ends]
+        for (a, b), side in zip(ends, sides):
+            if a != b:
+                nodes[side] = [(x + y) / 2 for x, y in
+                               zip(places[a], places[b])]
+        lines.append(", ".join(map(str, [number, *corners, *sides])) + "\n")
+    return ("".join(f"{number}, {x}, {y}, {z}\n"
+                    for number, (x, y, z) in nodes.items()), "".join(lines))
+
+
+MIDDLES, COLLAPSED_8 = middles(COLLAPSED)
+good("all_of_8_nodes_are_collapsed",
+     DECK.replace(NODES, NODES + MIDDLES).replace("S4R", "S8R")
+     .replace(CELLS, COLLAPSED_8),
      settings={"Discretization/Element": "triangle"},
      notes=[["taken as triangles"]])
 
