@@ -286,6 +286,19 @@ def restart_with_other_quantities(folder):
 
 
 @test(1)
+def restart_with_another_format(folder):
+    """Each list names files of its own format only."""
+    folder.write("case.prm", SWINGING)
+    folder.succeed("case.prm")
+    folder.succeed("case.prm", "--restart", Analysis__End_time="0.06",
+                   Study__Output_format="hdf5")
+    check(re.findall('file="([^"]*)"', folder.read("case.pvd"))
+          == ["case_4.vtu"] and "case_6.h5" in folder.read("case.xdmf")
+          and "case_4" not in folder.read("case.xdmf"),
+          folder.read("case.xdmf"))
+
+
+@test(1)
 def restart_of_a_mesh_file(folder):
     """The content counts, not the place."""
     folder.write("rod.inp", ROD)
