@@ -14,6 +14,7 @@
 #include <nacre/simulation/memory_estimate.h>
 #include <nacre/simulation/path_monitor.h>
 #include <nacre/simulation/path_start.h>
+#include <nacre/simulation/run_warnings.h>
 
 #include <algorithm>
 #include <cmath>

@@ -58,7 +58,10 @@ namespace Nacre
     written_         = data;
     written_.problem = problem;
     start_step_      = data.state.step;
-    vtu_output_.resume(options_.folder, options_.name, data.written_fields);
+    // Another format has a list of its own.
+    if (has_changed("Study/Output format", data.problem, problem))
+      written_.written_fields.clear();
+    vtu_output_.resume(options_.folder, options_.name, written_.written_fields);
     const bool same_quantities =
       !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {

@@ -67,25 +67,4 @@ namespace Nacre
       }
     return data;
   }
-
-  void
-  warn_of_load_factor(const PathParameters &parameters,
-                      const ProblemRecord  &problem,
-                      Log                  &log)
-  {
-    if (parameters.load_factor.is_constant())
-      return;
-    std::string found;
-    for (const auto *const section : {"Loads", "Boundary conditions"})
-      if (mentions(problem, section, "t"))
-        found += (found.empty() ? "'" : " and '") + std::string(section) + "'";
-    if (found.empty())
-      return;
-    const auto &factor = problem.parameters.at("Analysis/Load factor");
-    log.warning("Analysis/Load factor: '" + factor + "'" +
-                (factor == "default" ? ", which is t," : "") +
-                " multiplies values of " + found +
-                " that depend on t themselves. 'Load factor = 1' takes them "
-                "as they are.");
-  }
 } // namespace Nacre

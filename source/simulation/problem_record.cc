@@ -152,6 +152,7 @@ namespace Nacre
   current_problem(const MPI_Comm communicator)
   {
     ProblemRecord record;
+    record.n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
     record.parameters = parameter_values();
     // Where the files are is no part of the problem.
     record.parameters.erase("Study/Name");
@@ -195,7 +196,12 @@ namespace Nacre
   std::string
   permitted_changes(const ProblemRecord &then, const ProblemRecord &now)
   {
-    return changes(then, now, is_free);
+    std::string text = changes(then, now, is_free);
+    if (then.n_ranks != now.n_ranks)
+      text += (text.empty() ? "" : "; ") + std::string("ranks: ") +
+              std::to_string(then.n_ranks) + " then, " +
+              std::to_string(now.n_ranks) + " now";
+    return text;
   }
 
   std::string

@@ -12,6 +12,7 @@
 #include <nacre/simulation/chosen_solver.h>
 #include <nacre/simulation/conditioning.h>
 #include <nacre/simulation/memory_estimate.h>
+#include <nacre/simulation/run_warnings.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <algorithm>
@@ -229,27 +230,6 @@ namespace Nacre
   }
 
   void
-  ShellProblem::warn_of_large_displacements(Log &log) const
-  {
-    if (kinematics_options().model != KinematicsModel::linear)
-      return;
-    double largest = 0.;
-    for (const auto i : discretization_->locally_owned_dofs())
-      largest = std::max(largest, std::abs(displacement_(i)));
-    largest           = Utilities::MPI::max(largest, communicator_);
-    const double size = discretization_->extent().second;
-    if (largest <= size)
-      return;
-    std::ostringstream text;
-    text << std::setprecision(3) << "Discretization/Kinematics: a displacement"
-         << " of " << largest << " is larger than the shell, " << size
-         << "; linear kinematics holds for small displacements only. Are the "
-            "units of loads and section the same? 'corotational', with an "
-            "'Analysis/Type' other than linear, follows large rotations.";
-    log.warning(text.str());
-  }
-
-  void
   ShellProblem::clear()
   {
     times_ = SolveTimes();
@@ -300,11 +280,8 @@ namespace Nacre
                   log);
     if (!is_linear())
       {
-        if (kinematics_options().model == KinematicsModel::linear)
-          log.warning(
-            "Discretization/Kinematics: linear, which holds for small "
-            "displacements and rotations only, all along the path; "
-            "'corotational' follows large ones.");
+        if (has_linear_kinematics())
+          warn_of_linear_path(log);
         system_ = std::make_unique<ShellSystem>(*discretization_,
                                                 *operator_,
                                                 boundary_conditions_,
@@ -346,7 +323,7 @@ namespace Nacre
   ShellProblem::solve(Log &log)
   {
     solve_linear_system(log);
-    warn_of_large_displacements(log);
+    warn_of_large_displacements(*discretization_, displacement_, log);
 
     residual_.reinit(discretization_->locally_owned_dofs(), communicator_);
     const Energies energies = operator_->residual(displacement_, residual_);
@@ -381,7 +358,8 @@ namespace Nacre
       },
       [&](const std::string &text) { log.progress() << text << std::endl; });
     take_state(state);
-    warn_of_large_displacements(log);
+    if (has_linear_kinematics())
+      warn_of_large_displacements(*discretization_, displacement_, log);
     solver_record_.name = solver_->name();
     times_.assembly =
       Utilities::MPI::sum(system_->assembly_seconds(), communicator_);

@@ -34,12 +34,6 @@ namespace Nacre
              const Discretization &discretization,
              const std::string    &own_base,
              Log                  &log);
-
-  /** Warn if the load factor and what it multiplies both depend on t. */
-  void
-  warn_of_load_factor(const PathParameters &parameters,
-                      const ProblemRecord  &problem,
-                      Log                  &log);
 } // namespace Nacre
 
 #endif

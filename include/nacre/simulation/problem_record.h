@@ -20,13 +20,14 @@ namespace Nacre
     /** Texts by "Section/Parameter". */
     std::map<std::string, std::string> parameters;
     /** The fingerprint of the mesh file's content; empty without one. */
-    std::string mesh_file;
+    std::string  mesh_file;
+    unsigned int n_ranks = 0;
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &parameters &mesh_file;
+      archive &parameters &mesh_file &n_ranks;
     }
   };
 

@@ -227,10 +227,6 @@ namespace Nacre
     void
     warn_of_penalty(Log &log) const;
 
-    /** If linear kinematics is taken beyond small displacements. */
-    void
-    warn_of_large_displacements(Log &log) const;
-
     /** Forget everything of the last set-up. */
     void
     clear();
@@ -258,6 +254,12 @@ namespace Nacre
 
     KinematicsOptions
     kinematics_options() const;
+
+    bool
+    has_linear_kinematics() const
+    {
+      return kinematics_options().model == KinematicsModel::linear;
+    }
 
     const MPI_Comm              communicator_;
     std::unique_ptr<SectionLaw> section_;
