@@ -233,6 +233,34 @@ def plane_across_a_tilted_surface(nacre):
 
 
 @case(1)
+def planes_of_all_levels(nacre):
+    """Multigrid finds a turned roof as easy as one in coordinate planes."""
+    rows = []
+    for angle in (0., 0.5):
+        prm = f"set Constants = C = cos({angle}), S = sin({angle})\n"
+        prm += sections(
+            Study="set Degrees = 2, 3\nset Refinements = 2",
+            **{"Mid-surface": "set Surface = expression\n"
+                              "set Subdivisions = 1, 1\nsubsection expression\n"
+                              "set Position = 25*sin(u)*C - v*S, "
+                              "25*sin(u)*S + v*C, 25*cos(u)\n"
+                              "set Range u = 0, 2*pi/9\n"
+                              "set Range v = 0, 25\nend",
+               "Linear solver": "set Solver = multigrid"},
+            Section="set Young's modulus = 4.32e8\n"
+                    "set Poisson's ratio = 0\nset Thickness = 0.25",
+            Boundary_conditions="set Edges = u=0: symmetry; v=0: diaphragm; "
+                                "v=1: symmetry",
+            Loads="set Force per area = 0, 0, -90",
+            Quantities=names(U="energy"))
+        rows.append(nacre.rows(prm))
+    for straight, turned in zip(*rows):
+        near(turned["U"], straight["U"], 1e-6, "U")
+        check(turned["iterations"] <= straight["iterations"] + 1,
+              f"{turned['iterations']} iterations")
+
+
+@case(1)
 def no_plane(nacre):
     """An arc within a flat surface, and an edge that leaves any plane."""
     prm = sections(
@@ -504,6 +532,36 @@ def lips_of_a_slit(nacre):
                      f"Quantities/Quantities=a = displacement x at {lips[0]};"
                      f"b = displacement x at {lips[1]}")
     check(row["a"] > 10. * abs(row["b"]), f"both lips move: {row}")
+
+
+@case(1, 2)
+def no_slit(nacre):
+    """Neither cells much longer than wide nor sharp folds are slits."""
+    places = [f"({x}, {y}, 0)" for x in (0., 1e-5, 3.7e-5, 1e-4, 2.2e-4, 0.3)
+              for y in (0., 0.4999, 0.5, 0.73, 1.)]
+    prm = sections(
+        Study="set Degrees = 2",
+        **{"Mid-surface": "set Surface = plate\nset Subdivisions = 30, 2\n"
+                          "set Grading u = s^3"},
+        Boundary_conditions="set Edges = u=1: clamped",
+        Loads="set Force per area = 0, 0, 1e-9",
+        Quantities=names(**{f"w{k}": f"displacement z at {place}"
+                            for k, place in enumerate(places)}))
+    row = nacre.last(prm)
+    for k in range(25):
+        near(row[f"w{k}"], row["w2"], 0.1, f"w{k}")
+    fold = sections(
+        Study="set Degrees = 4",
+        **{"Mid-surface": "set Surface = expression\n"
+                          "set Subdivisions = 2, 2\nsubsection expression\n"
+                          "set Position = abs(u), v, 0.2*u\n"
+                          "set Range u = -1, 1\nend"},
+        Boundary_conditions="set Edges = u=-1: clamped",
+        Quantities=names(a="displacement x at (0, 0.5, 0)",
+                         b="displacement x at (0.0005, 0.3, 0)",
+                         c="displacement x at (0.002, 0.5, -0.0004)",
+                         d="displacement normal at (0, 1, 0)"))
+    nacre.last(fold)
 
 
 def main():
