@@ -103,51 +103,122 @@ namespace Nacre
       double                                          size;
     };
 
-    /** Cells whose distances differ by less than this share of their size. */
-    constexpr double together = 1e-3;
-
-    /** This rank's cells that may be the nearest ones to @p point. */
-    std::vector<NearCell>
-    nearest_cells(const Discretization  &discretization,
-                  const Point<spacedim> &point)
+    NearCell
+    nearest_point(const Discretization                                  &mesh,
+                  const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+                  const Point<spacedim>                                 &point)
     {
-      const auto           &fe = discretization.scalar_fe();
-      std::vector<NearCell> near;
-      double                smallest = std::numeric_limits<double>::max();
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
+      const auto &fe    = mesh.scalar_fe();
+      const auto  nodes = mesh.node_positions(cell);
+      const auto  start =
+        std::min_element(nodes.begin(),
+                         nodes.end(),
+                         [&](const auto &x, const auto &y) {
+                           return x.distance(point) < y.distance(point);
+                         });
+      const LocalSurface surface{fe, nodes};
+      NearCell           result;
+      result.cell     = cell;
+      result.unit     = project(surface,
+                            mesh.element().reference_cell(),
+                            point,
+                            fe.unit_support_point(start - nodes.begin()));
+      result.position = surface.position(result.unit);
+      result.distance = result.position.distance(point);
+      const BoundingBox<spacedim> box(nodes);
+      result.size =
+        box.side_length(0) + box.side_length(1) + box.side_length(2);
+      return result;
+    }
+
+    /**
+     * Call @p use with the nearest points of this rank's cells, other than of
+     * cells farther away than @p limit() for certain.
+     */
+    template <typename Limit, typename Use>
+    void
+    for_each_near_cell(const Discretization  &mesh,
+                       const Point<spacedim> &point,
+                       const Limit           &limit,
+                       const Use             &use)
+    {
+      for (const auto &cell : mesh.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
           {
-            const auto nodes = discretization.node_positions(cell);
+            const auto                  nodes = mesh.node_positions(cell);
             const BoundingBox<spacedim> box(nodes);
-            const double                size =
-              box.side_length(0) + box.side_length(1) + box.side_length(2);
-            const auto nearest =
-              std::min_element(nodes.begin(),
-                               nodes.end(),
-                               [&](const auto &x, const auto &y) {
-                                 return x.distance(point) < y.distance(point);
-                               });
-            if (nearest->distance(point) - size >= smallest + together * size)
-              continue;
-            const LocalSurface surface{fe, nodes};
-            const Point<dim>   unit =
-              project(surface,
-                      discretization.element().reference_cell(),
-                      point,
-                      fe.unit_support_point(nearest - nodes.begin()));
-            const Point<spacedim> position = surface.position(unit);
-            const double          distance = position.distance(point);
-            if (distance > smallest + together * size)
-              continue;
-            near.push_back({cell, unit, position, distance, size});
-            smallest = std::min(smallest, distance);
+            double nearest = std::numeric_limits<double>::max();
+            for (const auto &node : nodes)
+              nearest = std::min(nearest, node.distance(point));
+            if (nearest - box.side_length(0) - box.side_length(1) -
+                  box.side_length(2) <=
+                limit())
+              use(nearest_point(mesh, cell, point));
           }
-      return near;
+    }
+
+    /**
+     * This rank's cells that are as near to @p point as the nearest one of all
+     * ranks, within a thousandth of its size.
+     */
+    std::vector<NearCell>
+    nearest_cells(const Discretization  &mesh,
+                  const Point<spacedim> &point,
+                  double                &smallest)
+    {
+      double mine = std::numeric_limits<double>::max(), size = mine;
+      for_each_near_cell(
+        mesh,
+        point,
+        [&]() { return mine; },
+        [&](const NearCell &near) {
+          if (near.distance < mine)
+            {
+              mine = near.distance;
+              size = near.size;
+            }
+        });
+      smallest = Utilities::MPI::min(mine, mesh.communicator());
+      if (mine > smallest)
+        size = std::numeric_limits<double>::max();
+      const double limit =
+        smallest + 1e-3 * Utilities::MPI::min(size, mesh.communicator());
+      std::vector<NearCell> cells;
+      for_each_near_cell(
+        mesh,
+        point,
+        [&]() { return limit; },
+        [&](const NearCell &near) {
+          if (near.distance <= limit)
+            cells.push_back(near);
+        });
+      return cells;
     }
 
     /** A displacement by those of dofs, hanging nodes resolved. */
     using Weights = std::map<types::global_dof_index, double>;
+
+    Weights
+    weights_at(const Discretization                                  &mesh,
+               const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+               const Point<dim>                                      &unit)
+    {
+      const auto &hanging = mesh.hanging_node_constraints();
+      std::vector<types::global_dof_index> dofs(mesh.node_dofs().size());
+      cell->get_dof_indices(dofs);
+      Weights weights;
+      for (unsigned int a = 0; a < mesh.scalar_fe().n_dofs_per_cell(); ++a)
+        {
+          const double N = mesh.scalar_fe().shape_value(a, unit);
+          const auto   i = dofs[mesh.node_dofs()[spacedim * a]];
+          if (!hanging.is_constrained(i))
+            weights[i] += N;
+          else
+            for (const auto &[j, weight] : *hanging.get_constraint_entries(i))
+              weights[j] += weight * N;
+        }
+      return weights;
+    }
 
     /** What the other ranks need to know of a near cell. */
     struct Candidate
@@ -170,52 +241,71 @@ namespace Nacre
     };
 
     Candidate
-    make_candidate(const Discretization &discretization, const NearCell &near)
+    make_candidate(const Discretization &mesh, const NearCell &near)
     {
-      const auto &fe    = discretization.scalar_fe();
-      const auto  nodes = discretization.node_positions(near.cell);
-      Candidate   result{near.cell->id(),
-                       near.position,
-                       near.distance,
-                       near.size,
-                       {},
-                       {}};
-      const auto  middle =
-        discretization.element().reference_cell().template barycenter<dim>();
-      result.inside = LocalSurface{fe, nodes}.position(
-        near.unit + 0.05 * (middle - near.unit));
-
-      const auto &hanging = discretization.hanging_node_constraints();
-      std::vector<types::global_dof_index> dofs(
-        discretization.node_dofs().size());
-      near.cell->get_dof_indices(dofs);
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        {
-          const double N = fe.shape_value(a, near.unit);
-          const auto   i = dofs[discretization.node_dofs()[spacedim * a]];
-          if (!hanging.is_constrained(i))
-            result.weights[i] += N;
-          else
-            for (const auto &[j, weight] : *hanging.get_constraint_entries(i))
-              result.weights[j] += weight * N;
-        }
-      return result;
+      const auto middle =
+        mesh.element().reference_cell().template barycenter<dim>();
+      const auto nodes = mesh.node_positions(near.cell);
+      return {near.cell->id(),
+              near.position,
+              near.distance,
+              near.size,
+              LocalSurface{mesh.scalar_fe(), nodes}.position(
+                near.unit + 0.05 * (middle - near.unit)),
+              weights_at(mesh, near.cell, near.unit)};
     }
 
-    /** Whether both cells hold the same particle of the surface. */
+    /**
+     * Whether both are the displacement of one particle, or of two so near as
+     * those of the sides of a sharp fold.
+     */
     bool
-    are_joined(const Candidate &a, const Candidate &b)
+    are_same(const Weights &a, const Weights &b)
     {
-      // Over a distance that counts as none shape functions change by less
-      // than 0.1.
-      Weights difference = a.weights;
-      for (const auto &[dof, weight] : b.weights)
+      Weights difference = a;
+      for (const auto &[dof, weight] : b)
         difference[dof] -= weight;
       return std::all_of(difference.begin(),
                          difference.end(),
                          [](const auto &entry) {
                            return std::abs(entry.second) < 0.1;
                          });
+    }
+
+    /**
+     * The first of the near cells @p all that isn't joined to the cell @p best,
+     * directly or by others of them; their number if there is none. Cells are
+     * joined where the particle of one is one of the other. Collective.
+     */
+    std::size_t
+    find_separate(const Discretization         &mesh,
+                  const std::vector<NearCell>  &mine,
+                  const std::vector<Candidate> &all,
+                  const std::size_t             best)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> joints;
+      for (unsigned int a = 0; a < all.size(); ++a)
+        for (const auto &near : mine)
+          if (all.size() > 1 && near.cell->id() == all[a].id)
+            for (unsigned int b = 0; b < all.size(); ++b)
+              if (are_same(
+                    weights_at(
+                      mesh,
+                      near.cell,
+                      nearest_point(mesh, near.cell, all[b].position).unit),
+                    all[b].weights))
+                joints.emplace_back(a, b);
+      std::vector<bool> is_joined(all.size(), false);
+      is_joined[best] = true;
+      const auto joints_of_all =
+        Utilities::MPI::all_gather(mesh.communicator(), joints);
+      for (unsigned int round = 0; round < all.size(); ++round)
+        for (const auto &list : joints_of_all)
+          for (const auto &[a, b] : list)
+            if (is_joined[a] || is_joined[b])
+              is_joined[a] = is_joined[b] = true;
+      return std::find(is_joined.begin(), is_joined.end(), false) -
+             is_joined.begin();
     }
 
     std::string
@@ -227,24 +317,13 @@ namespace Nacre
     }
 
     void
-    check_place(const Candidate              &best,
-                const std::vector<Candidate> &all,
-                const std::string            &source)
+    check_distance(const Candidate &best, const std::string &source)
     {
       std::ostringstream off;
       off << source << ": the point lies off the mid-surface by "
           << best.distance << "; the nearest point of the mesh is "
           << in_words(best.position) << '.';
       AssertThrow(best.distance <= 0.02 * best.size, ExcMessage(off.str()));
-      for (const auto &other : all)
-        AssertThrow(are_joined(best, other),
-                    ExcMessage(source +
-                               ": the point lies on two parts of the surface "
-                               "that aren't joined there, as the lips of a "
-                               "slit. Choose a point further inside one of "
-                               "them, such as " +
-                               in_words(best.inside) + " or " +
-                               in_words(other.inside) + '.'));
     }
   } // namespace
 
@@ -252,16 +331,11 @@ namespace Nacre
   Discretization::locate(const Point<spacedim> &point,
                          const std::string     &source) const
   {
-    const auto mine     = nearest_cells(*this, point);
-    double     smallest = std::numeric_limits<double>::max();
-    for (const auto &near : mine)
-      smallest = std::min(smallest, near.distance);
-    smallest = Utilities::MPI::min(smallest, communicator());
-
+    double                 smallest;
+    const auto             mine = nearest_cells(*this, point, smallest);
     std::vector<Candidate> candidates, all;
     for (const auto &near : mine)
-      if (near.distance <= smallest + together * near.size)
-        candidates.push_back(make_candidate(*this, near));
+      candidates.push_back(make_candidate(*this, near));
     for (const auto &part :
          Utilities::MPI::all_gather(communicator(), candidates))
       all.insert(all.end(), part.begin(), part.end());
@@ -275,7 +349,18 @@ namespace Nacre
       });
     Assert(best != all.end(), ExcInternalError());
     if (!is_coarse_level_)
-      check_place(*best, all, source);
+      {
+        check_distance(*best, source);
+        const auto other = find_separate(*this, mine, all, best - all.begin());
+        AssertThrow(other == all.size(),
+                    ExcMessage(source +
+                               ": the point lies on two parts of the surface "
+                               "that aren't joined there, as the lips of a "
+                               "slit. Choose a point further inside one of "
+                               "them, such as " +
+                               in_words(best->inside) + " or " +
+                               in_words(all[other].inside) + '.'));
+      }
 
     SurfacePoint result;
     result.position      = best->position;

@@ -74,7 +74,9 @@ namespace Nacre
                 all[k].place.position.distance(place.position) <= 1e-6 * extent)
               chosen[k] = found = true;
           std::ostringstream message;
-          message << supports.where << ": at the point (" << place.position
+          const auto        &x = place.position;
+          message << supports.where << ": at the point (" << x[0] << ", "
+                  << x[1] << ", " << x[2]
                   << ") there is neither a node nor a support of "
                      "'Boundary conditions/Points'.";
           AssertThrow(found, ExcMessage(message.str()));
@@ -119,10 +121,8 @@ namespace Nacre
       v.compress(VectorOperation::insert);
       discretization.hanging_node_constraints().distribute(v);
 
-      const auto &between = conditions.points_between_nodes();
-      if (between.is_empty())
-        return v;
-      const auto          chosen = chosen_conditions(conditions,
+      const auto         &between = conditions.points_between_nodes();
+      const auto          chosen  = chosen_conditions(conditions,
                                             supports,
                                             places,
                                             discretization.extent().second);
@@ -284,14 +284,13 @@ namespace Nacre
              shell.discretization.communicator());
     shell.shell_operator.add_loads(shell.displacement, f);
     loads = resultant(shell, f, origin);
-    if (shell.mass == nullptr)
+    if (shell.mass == nullptr && !has_deformed_levers(shell))
       return;
-    // Internal forces do no work on rigid motions: the residual of all nodes
-    // holds inertia and the loads there.
+    // What the residual of all nodes holds beside loads and reactions.
     const Resultant all = resultant(shell, shell.residual, origin);
-    inertia.emplace();
-    inertia->force = -1. * (all.force + loads.force);
-    inertia->moment =
+    Resultant &rest = (shell.mass != nullptr ? inertia : internal).emplace();
+    rest.force      = -1. * (all.force + loads.force);
+    rest.moment =
       -1. * (all.moment + loads.moment + rotation_moment(shell, supports));
   }
 
@@ -319,11 +318,14 @@ namespace Nacre
     sum += balance.reactions;
     row("loads", balance.loads);
     row("reactions", balance.reactions);
-    if (balance.inertia)
-      {
-        sum += *balance.inertia;
-        row("inertia", *balance.inertia);
-      }
+    for (const auto &[name, rest] :
+         {std::make_pair("inertia", &balance.inertia),
+          std::make_pair("internal", &balance.internal)})
+      if (*rest)
+        {
+          sum += **rest;
+          row(name, **rest);
+        }
     row("sum", sum);
     out.flags(flags);
     out.precision(precision);

@@ -69,14 +69,16 @@ namespace Nacre
       "commas, colons or semicolons in double quotes. Items: "
       "free; fixed (x = y = z = 0); clamped (fixed, rotation 0); symmetry (no "
       "displacement across the plane that holds the edge, rotation 0); "
-      "diaphragm (no displacement within the plane that holds the edge); "
+      "diaphragm (no displacement within the plane that holds the edge), for "
+      "straight edges the plane across the surface; "
       "x, y, z, normal, conormal, tangent = displacement component, an "
       "expression of x, y, z, units: length; rotation = t0 . du/dn with the "
       "outward conormal n, units: rad. Edges not named are free.");
-    add_parameter("Points",
-                  points_text_,
-                  "Supports of single nodes: '(x, y, z): x = 0, y = 0; ...'. "
-                  "Units: length.");
+    add_parameter(
+      "Points",
+      points_text_,
+      "Supports of points of the mid-surface, nodes or not: '(x, y, "
+      "z): x = 0, y = 0; ...'. Units: length.");
   }
 
   std::vector<std::string>

@@ -437,8 +437,9 @@ case("symmetry_not_plane",
       "Mid-surface/expression/Position": "u, v + u^2, u^3*(1 - v)",
       EDGES: "u=0: clamped; v=0: symmetry"})
 case("support_off_the_mesh",
-     [POINTS, "(0.1, 0.1, 0)", "nearest one is (0, 0, 0)"],
-     {POINTS: "(0.1, 0.1, 0): x = 0"})
+     [POINTS, "(0.1, 0.1, 0.5)", "lies off the mid-surface by 0.5",
+      "nearest point of the mesh is (0.1, 0.1, 0)"],
+     {POINTS: "(0.1, 0.1, 0.5): x = 0"})
 case("support_two_components", [POINTS, "(0, 0)", "2 components"],
      {POINTS: "(0, 0): x = 0"})
 case("support_condition", [POINTS, "'clamped'", "'x = value'", "'fixed'"],

@@ -83,6 +83,11 @@ namespace Nacre
     Resultant reactions;
     /** -M a and damping, in dynamics. */
     std::optional<Resultant> inertia;
+    /**
+     * In statics, unless linear: the net moment that the co-rotational form
+     * leaves in cells and edges that bend and stretch.
+     */
+    std::optional<Resultant> internal;
 
     /** Collective. */
     Balance(const SolvedShell &shell, const Point<spacedim> &origin);

@@ -60,7 +60,7 @@ namespace Nacre
     std::vector<std::string> items;
   };
 
-  /** Components prescribed at the node at a point. */
+  /** Components prescribed at a point, a node or not. */
   struct PointSupport
   {
     Point<3>                           position;
