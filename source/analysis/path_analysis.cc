@@ -136,18 +136,34 @@ namespace Nacre
                         dynamic_step(state, dt, line_search) :
                         static_step(state, dt, line_search);
     if (attempt.result.converged)
-      {
-        attempt.result.reason =
-          find_impossible_deformation(system_.discretization(),
-                                      system_.with_ghosts(state.motion.u),
-                                      system_.with_ghosts(attempt.motion.u));
-        attempt.result.converged = attempt.result.reason.empty();
-      }
+      check_state(attempt, &state);
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
     if (parameters_.type == AnalysisType::relaxation && unstable)
-      attempt = relax(state, dt);
+      {
+        attempt = relax(state, dt);
+        // It jumps: only the state itself can be impossible.
+        if (attempt.result.converged)
+          check_state(attempt, nullptr);
+      }
     return attempt;
+  }
+
+  void
+  PathAnalysis::check_state(Attempt &attempt, const PathState *before) const
+  {
+    const Vector u              = system_.with_ghosts(attempt.motion.u);
+    auto        &reason         = attempt.result.reason;
+    const auto  &discretization = system_.discretization();
+    reason =
+      before != nullptr ?
+        find_impossible_deformation(discretization,
+                                    system_.with_ghosts(before->motion.u),
+                                    u) :
+        find_impossible_state(discretization, u);
+    if (reason.empty())
+      reason = find_torn_edge(system_.shell_operator(), u);
+    attempt.result.converged = reason.empty();
   }
 
   PathAnalysis::Attempt

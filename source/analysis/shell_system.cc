@@ -24,6 +24,7 @@ namespace Nacre
     , size_(discretization.extent().second)
     , solver_(solver)
   {
+    boundary_conditions_.set_load_factor(load_factor_);
     set_time(0.);
     shell_operator_.reinit_matrix(constraints(), matrix_);
   }

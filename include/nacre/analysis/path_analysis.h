@@ -82,8 +82,13 @@ namespace Nacre
     Attempt
     try_step(const PathState &state, const double dt, const bool line_search);
 
-    Attempt
-    take_step(const PathState &state, const double dt, const bool line_search);
+    /**
+     * Let an attempt that has converged fail if its deformation is impossible.
+     * @param before the state that the step has begun with; null if the attempt
+     *   has jumped
+     */
+    void
+    check_state(Attempt &attempt, const PathState *before) const;
 
     Attempt
     static_step(const PathState &state, const double dt, const bool search);

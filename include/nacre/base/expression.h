@@ -21,7 +21,7 @@ namespace Nacre
    * A muParser expression of a parameter file, with named constants (and pi).
    * Malformed text, unknown names and values that aren't finite throw an
    * ExcMessage that names the parameter, the expression and, for a value, the
-   * point.
+   * point and the time.
    */
   class Expression
   {
@@ -49,6 +49,12 @@ namespace Nacre
     double
     operator()(const Point<3> &point) const;
 
+    /** The value at another @p time and for another @p factor. */
+    double
+    value_at(const Point<3> &point,
+             const double    time,
+             const double    factor) const;
+
     /** Set the time, 0 before, and a factor of all values, 1 before. */
     void
     set_time(const double time, const double factor = 1.);
@@ -62,6 +68,10 @@ namespace Nacre
     is_zero() const;
 
   private:
+    /** The function's value times @p factor; throws if it isn't finite. */
+    double
+    evaluate(const Point<3> &point, const double factor) const;
+
     std::string                        text_;
     std::string                        where_;
     std::string                        variables_;

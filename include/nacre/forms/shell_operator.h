@@ -5,6 +5,7 @@
 #define nacre_forms_shell_operator_h
 
 #include <nacre/forms/edge_penalty.h>
+#include <nacre/forms/edge_turns.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/mass_terms.h>
 
@@ -17,6 +18,7 @@
 namespace Nacre
 {
   class BoundaryConditions;
+  class Expression;
   class Loads;
 
   /**
@@ -100,6 +102,23 @@ namespace Nacre
     bool
     is_consistently_oriented() const;
 
+    /** Where, and by how much, a deformed edge departs from its rotation. */
+    struct RotationGap
+    {
+      /** Between the normals, 0 to pi (rad). */
+      double angle = 0.;
+      /** On the undeformed surface (length). */
+      Point<spacedim> position;
+    };
+
+    /**
+     * The largest angle between the normal of the deformed edge and that of its
+     * prescribed rotation at the ghosted displacement @p u; collective, the
+     * same on all ranks.
+     */
+    RotationGap
+    largest_rotation_gap(const Vector &u) const;
+
   private:
     struct ScratchData;
     struct FaceCopy;
@@ -135,6 +154,14 @@ namespace Nacre
                     const Vector                                          *u,
                     ScratchData &scratch,
                     CopyData    &copy) const;
+
+    /** Rotations prescribed at the points of @p edge, the one of a cell. */
+    std::vector<PrescribedRotation>
+    prescribed_rotations(
+      const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+      const unsigned int                                     face,
+      const Expression                                      &rotation,
+      const ShellEdgeValues                                 &edge) const;
 
     void
     subtract_surface_loads(const ShellCellValues  &values,
@@ -174,6 +201,8 @@ namespace Nacre
     /** Whether to assemble the symmetric part of the tangent. */
     const bool                symmetrizes_;
     std::vector<SurfacePoint> force_points_;
+    /** Brought up to the time of the conditions before each use. */
+    mutable EdgeTurns turns_;
   };
 } // namespace Nacre
 
