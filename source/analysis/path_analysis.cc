@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/analysis/path_failure.h>
 #include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
@@ -65,35 +66,28 @@ namespace Nacre
         double       dt   = std::min(state.next_step, left);
         if (dt < left && left - dt < 1e-3 * dt)
           dt = left;
-        const bool search  = (parameters_.line_search == LineSearch::always);
-        Attempt    attempt = try_step(state, dt, search);
-        if (!attempt.result.converged &&
-            parameters_.line_search == LineSearch::automatic)
-          {
-            Attempt again = try_step(state, dt, true);
-            if (again.result.converged)
-              attempt = std::move(again);
-          }
-        std::ostringstream text;
+        std::ostringstream text, kept;
         text << "step " << state.step + 1 << " to t = " << state.time + dt
-             << ": " << attempt.result.reason;
+             << ": ";
+        kept << " The last good state, at t = " << state.time << ", is kept.";
+        Attempt attempt;
+        try
+          {
+            attempt = try_searches(state, dt);
+          }
+        // The user's own expression, on all ranks: smaller steps don't help.
+        catch (const ExcUndefinedValue &undefined)
+          {
+            return text.str() + error_text(undefined) + kept.str();
+          }
         if (!attempt.result.converged)
           {
             state.next_step    = 0.5 * dt;
             state.n_good_steps = 0;
+            text << attempt.result.reason;
             if (state.next_step < parameters_.minimum_time_step)
-              {
-                text << ". The last good state, at t = " << state.time
-                     << ", is kept. Try a smaller 'Analysis/Minimum time "
-                        "step', or ";
-                if (parameters_.type == AnalysisType::dynamic)
-                  text << "'Scheme = generalised alpha', which damps what the "
-                          "step can't resolve.";
-                else
-                  text << "'Type = relaxation' or 'dynamic' if the path has a "
-                          "limit or bifurcation point there.";
-                return text.str();
-              }
+              return text.str() + "." + kept.str() + " " +
+                     remedy(attempt.result.kind, parameters_.type);
             messenger(text.str() + "; trying half the step");
             continue;
           }
@@ -128,6 +122,21 @@ namespace Nacre
   }
 
   PathAnalysis::Attempt
+  PathAnalysis::try_searches(const PathState &state, const double dt)
+  {
+    const bool search  = (parameters_.line_search == LineSearch::always);
+    Attempt    attempt = try_step(state, dt, search);
+    if (!attempt.result.converged &&
+        parameters_.line_search == LineSearch::automatic)
+      {
+        Attempt again = try_step(state, dt, true);
+        if (again.result.converged)
+          attempt = std::move(again);
+      }
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
   PathAnalysis::try_step(const PathState &state,
                          const double     dt,
                          const bool       line_search)
@@ -137,6 +146,14 @@ namespace Nacre
                         static_step(state, dt, line_search);
     if (attempt.result.converged)
       check_state(attempt, &state);
+    else if (attempt.result.kind == FailureKind::no_convergence)
+      {
+        std::ostringstream where;
+        where << attempt.result.reason << ", largest at ("
+              << system_.position_of_last_increment()
+              << ") of the undeformed surface";
+        attempt.result.reason = where.str();
+      }
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
     if (parameters_.type == AnalysisType::relaxation && unstable)
@@ -164,6 +181,7 @@ namespace Nacre
     if (reason.empty())
       reason = find_torn_edge(system_.shell_operator(), u);
     attempt.result.converged = reason.empty();
+    attempt.result.kind      = FailureKind::impossible_deformation;
   }
 
   PathAnalysis::Attempt
@@ -254,9 +272,12 @@ namespace Nacre
         step = system_.solve_linearised(u, u, du, &inertia, 1.);
         ++iterations;
         // The first increment brings the prescribed displacements.
-        const bool first = (iterations == 1);
-        bool       good  = first || step.n_negative_pivots == 0;
-        double     share = 1.;
+        const bool first  = (iterations == 1);
+        const bool solved = (step.failure.kind == FailureKind::none);
+        if (step.failure.kind == FailureKind::not_finite)
+          break;
+        bool   good  = solved && (first || step.n_negative_pivots == 0);
+        double share = 1.;
         if (good && !first)
           {
             Vector trial(u);
@@ -286,8 +307,14 @@ namespace Nacre
         if (sigma < softest)
           sigma = 0.;
       }
-    attempt.result.reason = "the dynamic relaxation found no stable state in " +
-                            std::to_string(iterations) + " iterations";
+    attempt.result.kind = step.failure.kind != FailureKind::none ?
+                            step.failure.kind :
+                            FailureKind::no_stable_state;
+    attempt.result.reason =
+      "the dynamic relaxation found no stable state in " +
+      std::to_string(iterations) + " iterations" +
+      (step.failure.text.empty() ? "" :
+                                   ": in the last one " + step.failure.text);
     return attempt;
   }
 } // namespace Nacre

@@ -331,7 +331,7 @@ namespace Nacre
   {
     const double value = factor * function_->value(point);
     AssertThrow(std::isfinite(value),
-                ExcMessage(
+                ExcUndefinedValue(
                   not_finite(where_, text_, value) +
                   describe_point(point, function_->get_time(), variables_) +
                   "; it must be finite."));

@@ -78,7 +78,10 @@ namespace Nacre
       MotionState          motion;
     };
 
-    /** A step; what the solver throws is a reason to fail. */
+    /** try_step() as the parameters say: with a line search, without, both. */
+    Attempt
+    try_searches(const PathState &state, const double dt);
+
     Attempt
     try_step(const PathState &state, const double dt, const bool line_search);
 

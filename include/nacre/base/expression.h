@@ -6,6 +6,8 @@
 
 #include <nacre/base/types.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <array>
 #include <memory>
 
@@ -18,9 +20,19 @@ namespace dealii
 namespace Nacre
 {
   /**
+   * The value of a user's expression is not a finite number: maybe only from
+   * some time on, which ends a path and not what has been computed.
+   */
+  class ExcUndefinedValue : public StandardExceptions::ExcMessage
+  {
+  public:
+    using StandardExceptions::ExcMessage::ExcMessage;
+  };
+
+  /**
    * A muParser expression of a parameter file, with named constants (and pi).
-   * Malformed text, unknown names and values that aren't finite throw an
-   * ExcMessage that names the parameter, the expression and, for a value, the
+   * Malformed text and unknown names throw an ExcMessage, values that aren't
+   * finite an ExcUndefinedValue: it names the parameter, the expression, the
    * point and the time.
    */
   class Expression
