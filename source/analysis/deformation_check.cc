@@ -22,6 +22,8 @@ namespace Nacre
     using Dofs           = std::vector<types::global_dof_index>;
 
     constexpr double degrees = 180. / numbers::PI;
+    /** Cosine of 60 degrees: a hairpin turns by 90 degrees at least once. */
+    constexpr double sharpest_bend = 0.5;
 
     /** Points of the reference cell, and which of them are next neighbours. */
     struct Lattice
@@ -161,7 +163,7 @@ namespace Nacre
       for (const auto &[p, q] : lattice.neighbors)
         {
           const double cosine = 0.5 * (scalar_product(turns[p], turns[q]) - 1.);
-          if (!regular[p] || !regular[q] || cosine > 0.)
+          if (!regular[p] || !regular[q] || cosine > sharpest_bend)
             continue;
           std::ostringstream text;
           text << cell_at(values, q) << "folds onto itself: it turns by "

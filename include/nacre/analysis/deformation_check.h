@@ -19,7 +19,7 @@ namespace Nacre
    * can't be a step of a path:
    *
    * - a cell has lost its area, or folds onto itself: from one point to the
-   *   next its material turns by more than 90 degrees;
+   *   next its material turns by more than 60 degrees;
    * - a cell has been turned over: its normal has turned by more than 90
    *   degrees in the step;
    * - the fold angle of an edge, hanging ones included, has jumped beyond 180
