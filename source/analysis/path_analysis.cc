@@ -145,7 +145,16 @@ namespace Nacre
                         dynamic_step(state, dt, line_search) :
                         static_step(state, dt, line_search);
     if (attempt.result.converged)
-      check_state(attempt, &state);
+      {
+        if (parameters_.type == AnalysisType::dynamic)
+          {
+            // Not a time of the step's equation, but of its results: loads
+            // must be defined there.
+            system_.set_load_time(state.time + dt);
+            system_.work(attempt.motion.u, attempt.motion.u);
+          }
+        check_state(attempt, &state);
+      }
     else if (attempt.result.kind == FailureKind::no_convergence)
       {
         std::ostringstream where;

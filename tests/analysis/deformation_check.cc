@@ -23,7 +23,7 @@ struct Shell
   TrilinosVector
   deform(const Map &map) const
   {
-    const auto owned = interpolate(*discretization, [&](const Point<3> &x) {
+    const auto     owned = interpolate(*discretization, [&](const Point<3> &x) {
       return Vector3(map(x) - x);
     });
     TrilinosVector ghosted(discretization->locally_owned_dofs(),
