@@ -155,14 +155,6 @@ namespace Nacre
           }
         check_state(attempt, &state);
       }
-    else if (attempt.result.kind == FailureKind::no_convergence)
-      {
-        std::ostringstream where;
-        where << attempt.result.reason << ", largest at ("
-              << system_.position_of_last_increment()
-              << ") of the undeformed surface";
-        attempt.result.reason = where.str();
-      }
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
     if (parameters_.type == AnalysisType::relaxation && unstable)
@@ -171,6 +163,16 @@ namespace Nacre
         // It jumps: only the state itself can be impossible.
         if (attempt.result.converged)
           check_state(attempt, nullptr);
+      }
+    if (!attempt.result.converged &&
+        (attempt.result.kind == FailureKind::no_convergence ||
+         attempt.result.kind == FailureKind::no_stable_state))
+      {
+        std::ostringstream where;
+        where << attempt.result.reason << "; the last increment is largest at ("
+              << system_.position_of_last_increment()
+              << ") of the undeformed surface";
+        attempt.result.reason = where.str();
       }
     return attempt;
   }

@@ -99,9 +99,10 @@ class Run:
 
 
 def never_falls(rows, name):
-    """A load that grows only adds to the energy."""
+    """A load that grows only adds to the energy, but for an error of the mesh
+    where it has no equilibrium any more."""
     for before, after in zip(rows, rows[1:]):
-        check(after[name] >= before[name],
+        check(after[name] >= 0.99 * before[name],
               f"{name} falls from {before[name]} to {after[name]} at t = "
               f"{after['time']}")
 
@@ -125,14 +126,16 @@ def fold_force_coarse(run):
 
 def fold_force_relaxation(run):
     """Relaxation finds the energy's minimum with the clamp torn off: refused"""
-    result = run("fold_force.prm", {**NO_VTU, "Analysis/Type": "relaxation"})
+    result = run("fold_force.prm", {**NO_VTU, "Analysis/Type": "relaxation",
+                                     "Analysis/Maximum iterations": 12,
+                                     "Analysis/Minimum time step": 0.03})
     never_falls(result.rows, "U")
-    check(result.rows[-1]["time"] > 0.8, "it gives up early")
+    check("torn off its prescribed rotation, by 1" in result.text,
+          "not seen that the clamp is torn off")
+    check(result.rows[-1]["time"] > 0.75, "it gives up early")
     check(result.rows[-1]["U"] > 1.8, "the strip has folded")
     if result.code != 0:
-        result.ends(1, "torn off its prescribed rotation|folds onto itself|"
-                       "has shrunk", r"at \(\S+ \S+ \S+\)",
-                    "finer mesh or a higher degree")
+        result.ends(1, r"at \(\S+ \S+ \S+\) of the undeformed surface")
 
 
 def fold_force_fine(run):
@@ -163,8 +166,9 @@ def undefined_point_force(run):
     result = run("strip.prm", {
         "Analysis/Type": "dynamic", "Section/Density": 1,
         "Loads/Point forces": "(10, 0.5, 0): 0, 0, 1e-3*log(0.55 - t)"})
-    result.ends(1, r"Loads/Point forces.*is not a number at .*t = 0\.6;",
+    result.ends(1, r"Loads/Point forces.*is not a number at .*t = 0\.5\d+;",
                 r"last good state, at t = 0\.5, is kept")
+    check(result.cut_back() == 0, "smaller steps don't help")
     result.keeps_last_state()
 
 
@@ -173,7 +177,7 @@ def undefined_displacement(run):
     result = run("strip.prm", {
         "Analysis/Load factor": 1,
         "Boundary conditions/Edges":
-            "u=0: clamped; u=1: z = 1e-3/(if(t < 0.25, 1, 0))"})
+            "u=0: clamped; u=1: z = t/if(t < 0.25, 1, 0)"})
     result.ends(1, r"edge 'u=1' \(z\).* is infinite at .*t = 0\.3;",
                 r"last good state, at t = 0\.2, is kept")
     result.keeps_last_state()
@@ -194,9 +198,10 @@ def collapsed_cell(run):
     result.keeps_last_state()
 
 
-def loose_part(run):
-    """A part without supports: the tangent is singular."""
-    result = run("loose_part.prm", {})
+def singular_tangent(run):
+    """So thin that its bending stiffness vanishes in round-off."""
+    result = run("strip.prm", {"Section/Thickness": 1e-10,
+                               "Loads/Force per area": "0, 0, -1e-3"})
     result.ends(1, "the tangent is singular to working precision",
                 "part of it, may move freely", "at t = 0, is kept")
     check(result.cut_back() > 2, "the step is not cut back")
@@ -217,7 +222,7 @@ def twist(run):
         k, length, b, h, young = 2 * math.pi * t / 10, 10., 1., 0.05, 1e6
         torsion = young / 2 * b * h**3 / 3
         return length * (torsion * k**2 + young * h * b**5 / 720 * k**4) / 2
-    for row in rows:
+    for row in rows[1:]:
         check(abs(row["U"] - energy(row["time"])) <= 0.1 * energy(row["time"]),
               f"U = {row['U']} at t = {row['time']}, about "
               f"{energy(row['time'])} is right")
@@ -243,9 +248,15 @@ def twist_back(run):
               f"{a['U']} and {b['U']} at t = {a['time']}")
 
 
-def fold_rotate(run):
+def fold_rotate_in_plane(run):
+    """The same between symmetry planes: edges turn by exactly 180 degrees."""
+    fold_rotate(run, {"Boundary conditions/Edges":
+                      "start: fixed, rotation = 4*pi; v=0, v=1: symmetry"})
+
+
+def fold_rotate(run, more=()):
     """A hinged strip turned by two whole turns stores no energy."""
-    result = run("fold_rotate.prm", NO_VTU)
+    result = run("fold_rotate.prm", {**NO_VTU, **dict(more)})
     result.ends(0)
     check(len(result.rows) == 25 and result.cut_back() == 0, "cut back")
     for row in result.rows:
@@ -259,8 +270,8 @@ def fold_rotate(run):
 
 CASES = {case.__name__: case for case in (
     fold_force_coarse, fold_force_relaxation, fold_force_fine, undefined_load,
-    undefined_point_force, undefined_displacement, collapsed_cell, loose_part,
-    twist, twist_back, fold_rotate)}
+    undefined_point_force, undefined_displacement, collapsed_cell,
+    singular_tangent, twist, twist_back, fold_rotate, fold_rotate_in_plane)}
 
 
 def main():
