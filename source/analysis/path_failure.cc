@@ -36,7 +36,8 @@ namespace Nacre
                  other_analysis(type) + ".";
         case FailureKind::singular_tangent:
           return "The shell, or a part of it, may move freely in that state, "
-                 "or the path bifurcates there: prescribe more, or try " +
+                 "its cells may be too thin, or the path bifurcates there: "
+                 "prescribe more, or try " +
                  other_analysis(type) + ".";
         case FailureKind::not_finite:
           return "Cells collapse, or the loads or the stiffness are of an "
