@@ -3,10 +3,15 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/discretization/shell_values.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/mechanics/corotational_strain.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace Nacre
 {
@@ -14,16 +19,55 @@ namespace Nacre
   {
     using TrilinosVector = TrilinosWrappers::MPI::Vector;
     using Vector3        = Tensor<1, spacedim>;
+    using Dofs           = std::vector<types::global_dof_index>;
+
+    constexpr double degrees = 180. / numbers::PI;
+    /** Cosine of 60 degrees: a hairpin turns by 90 degrees at least once. */
+    constexpr double sharpest_bend = 0.5;
+
+    /** Points of the reference cell, and which of them are next neighbours. */
+    struct Lattice
+    {
+      /**
+       * Twice as fine as the nodes of @p element: the normal of a polynomial
+       * surface can't turn over and back between them.
+       */
+      explicit Lattice(const Element &element)
+      {
+        const unsigned int n         = 2 * element.degree;
+        const bool         triangles = (element.type == ElementType::triangle);
+        const auto         last      = [&](const unsigned int j) {
+          return triangles ? n - j : n;
+        };
+        unsigned int below = 0;
+        for (unsigned int j = 0; j <= n; ++j)
+          {
+            const unsigned int row = points.size();
+            for (unsigned int i = 0; i <= last(j); ++i)
+              {
+                if (i > 0)
+                  neighbors.emplace_back(points.size() - 1, points.size());
+                if (j > 0)
+                  neighbors.emplace_back(below + i, points.size());
+                points.emplace_back(double(i) / n, double(j) / n);
+              }
+            below = row;
+          }
+      }
+
+      std::vector<Point<dim>>                            points;
+      std::vector<std::pair<unsigned int, unsigned int>> neighbors;
+    };
 
     /** phi,1, phi,2 of a deformed cell at a point of a table. */
     template <typename Dof>
     std::array<Vector3, 2>
-    deformed_basis(const SurfaceFrame<>                       &frame,
-                   const ShapeTable                           &shapes,
-                   const unsigned int                          q,
-                   const TrilinosVector                       &u,
-                   const std::vector<types::global_dof_index> &dofs,
-                   const Dof                                  &dof)
+    deformed_basis(const SurfaceFrame<> &frame,
+                   const ShapeTable     &shapes,
+                   const unsigned int    q,
+                   const TrilinosVector &u,
+                   const Dofs           &dofs,
+                   const Dof            &dof)
     {
       auto phi = frame.a_cov;
       for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
@@ -33,36 +77,99 @@ namespace Nacre
       return phi;
     }
 
-    /** What is wrong with one cell, or "". */
-    std::string
-    check_cell(const ShellCellValues                      &values,
-               const TrilinosVector                       &before,
-               const TrilinosVector                       &after,
-               const std::vector<types::global_dof_index> &dofs)
+    /** phi,1 and phi,2 at the point @p q of a cell. */
+    std::array<Vector3, 2>
+    deformed_basis(const ShellCellValues &values,
+                   const unsigned int     q,
+                   const TrilinosVector  &u,
+                   const Dofs            &dofs)
     {
       const auto dof = [&](const unsigned int a, const unsigned int c) {
         return values.dof(a, c);
       };
+      return deformed_basis(values.frame(q), values.shapes(), q, u, dofs, dof);
+    }
+
+    /** The rotation of the material at a point, from its polar decomposition. */
+    Tensor<2, spacedim>
+    rotation(const SurfaceFrame<> &frame, const std::array<Vector3, 2> &phi)
+    {
+      const auto deformed = make_surface_frame<double>(phi[0], phi[1], {});
+      const auto polar    = make_polar_rotation(frame, deformed);
+      return outer_product(polar.q_cov[0], frame.a_con[0]) +
+             outer_product(polar.q_cov[1], frame.a_con[1]) +
+             outer_product(deformed.t0, frame.t0);
+    }
+
+    /** Points where the undeformed cell has an area: not a collapsed side. */
+    std::vector<bool>
+    regular_points(const ShellCellValues &values)
+    {
+      double largest = 0.;
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        largest = std::max(largest, values.frame(q).j0);
+      std::vector<bool> regular(values.n_points());
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        regular[q] = values.frame(q).j0 > 1e-6 * largest;
+      return regular;
+    }
+
+    std::string
+    cell_at(const ShellCellValues &values, const unsigned int q)
+    {
+      std::ostringstream text;
+      text << "the cell at (" << values.point(q)
+           << ") of the undeformed surface ";
+      return text.str();
+    }
+
+    /**
+     * What is wrong with one cell, or "".
+     * @param before null: whatever the step was
+     */
+    std::string
+    check_cell(const ShellCellValues &values,
+               const Lattice         &lattice,
+               const TrilinosVector  *before,
+               const TrilinosVector  &after,
+               const Dofs            &dofs)
+    {
+      const auto                       regular = regular_points(values);
+      std::vector<Tensor<2, spacedim>> turns(values.n_points());
       for (unsigned int q = 0; q < values.n_points(); ++q)
         {
-          const auto area = [&](const TrilinosVector &u) {
-            const auto phi =
-              deformed_basis(values.frame(q), values.shapes(), q, u, dofs, dof);
-            return cross_product_3d(phi[0], phi[1]);
-          };
-          const Vector3      n_before = area(before), n_after = area(after);
-          const double       stretch = n_after.norm() / values.frame(q).j0;
+          if (!regular[q])
+            continue;
+          const auto         phi     = deformed_basis(values, q, after, dofs);
+          const Vector3      normal  = cross_product_3d(phi[0], phi[1]);
+          const double       stretch = normal.norm() / values.frame(q).j0;
           std::ostringstream text;
           if (!(stretch > 1e-3))
-            text << "the cell at (" << values.point(q)
-                 << ") of the undeformed surface has shrunk to " << stretch
-                 << " of its area";
-          else if (!(n_before * n_after > 0.))
-            text << "the cell at (" << values.point(q)
-                 << ") of the undeformed surface is turned over: its normal "
-                    "turns by more than 90 degrees in one step";
-          if (!text.str().empty())
-            return text.str();
+            {
+              text << cell_at(values, q) << "has shrunk to " << stretch
+                   << " of its area";
+              return text.str();
+            }
+          if (before != nullptr)
+            {
+              const auto old = deformed_basis(values, q, *before, dofs);
+              if (!(cross_product_3d(old[0], old[1]) * normal > 0.))
+                return cell_at(values, q) +
+                       "is turned over: its normal turns by more than 90 "
+                       "degrees in one step";
+            }
+          turns[q] = rotation(values.frame(q), phi);
+        }
+      for (const auto &[p, q] : lattice.neighbors)
+        {
+          const double cosine = 0.5 * (scalar_product(turns[p], turns[q]) - 1.);
+          if (!regular[p] || !regular[q] || cosine > sharpest_bend)
+            continue;
+          std::ostringstream text;
+          text << cell_at(values, q) << "folds onto itself: it turns by "
+               << degrees * std::acos(std::max(-1., cosine))
+               << " degrees between two neighbouring points";
+          return text.str();
         }
       return "";
     }
@@ -120,6 +227,38 @@ namespace Nacre
         }
       return "";
     }
+
+    /** @param before null: whatever the step was */
+    std::string
+    check_all(const Discretization &discretization,
+              const TrilinosVector *before,
+              const TrilinosVector &after)
+    {
+      std::string     found;
+      const Lattice   lattice(discretization.element());
+      ShellCellValues values(discretization,
+                             Quadrature<dim>(lattice.points),
+                             false);
+      ShellEdgeValues edge(discretization);
+      Dofs            dofs(discretization.node_dofs().size());
+      for (const auto &cell :
+           discretization.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned() && found.empty())
+          {
+            values.reinit_frames(cell);
+            cell->get_dof_indices(dofs);
+            found = check_cell(values, lattice, before, after, dofs);
+            for (const auto f : cell->face_indices())
+              if (before != nullptr && found.empty() &&
+                  edge.reinit_to_neighbor(cell, f))
+                found = check_edge(edge, *before, after);
+          }
+      for (const auto &text :
+           Utilities::MPI::all_gather(discretization.communicator(), found))
+        if (!text.empty())
+          return text;
+      return "";
+    }
   } // namespace
 
   std::string
@@ -127,38 +266,27 @@ namespace Nacre
                               const TrilinosVector &before,
                               const TrilinosVector &after)
   {
-    std::string                          found;
-    ShellCellValues                      values(discretization,
-                           discretization.element().reduced_quadrature(),
-                           false);
-    ShellEdgeValues                      edge(discretization);
-    const unsigned int                   none = numbers::invalid_unsigned_int;
-    std::vector<types::global_dof_index> dofs(
-      discretization.node_dofs().size());
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned() && found.empty())
-        {
-          values.reinit(cell);
-          cell->get_dof_indices(dofs);
-          found = check_cell(values, before, after, dofs);
-          for (const auto f : cell->face_indices())
-            if (found.empty() && !cell->at_boundary(f) &&
-                cell->neighbor(f)->is_active() && !cell->neighbor_is_coarser(f))
-              {
-                edge.reinit(cell,
-                            f,
-                            none,
-                            cell->neighbor(f),
-                            cell->neighbor_of_neighbor(f),
-                            none);
-                found = check_edge(edge, before, after);
-              }
-        }
-    for (const auto &text :
-         Utilities::MPI::all_gather(discretization.communicator(), found))
-      if (!text.empty())
-        return text;
-    return "";
+    return check_all(discretization, &before, after);
+  }
+
+  std::string
+  find_impossible_state(const Discretization &discretization,
+                        const TrilinosVector &u)
+  {
+    return check_all(discretization, nullptr, u);
+  }
+
+  std::string
+  find_torn_edge(const ShellOperator &shell_operator, const TrilinosVector &u)
+  {
+    const auto gap = shell_operator.largest_rotation_gap(u);
+    if (gap.angle <= 0.5 * numbers::PI)
+      return "";
+    std::ostringstream text;
+    text << "the edge at (" << gap.position
+         << ") of the undeformed surface is torn off its prescribed rotation, "
+            "by "
+         << degrees * gap.angle << " degrees";
+    return text.str();
   }
 } // namespace Nacre

@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/analysis/path_failure.h>
 #include <nacre/analysis/relaxation.h>
 #include <nacre/base/mpi_errors.h>
 
@@ -65,37 +66,29 @@ namespace Nacre
     const TimeGrid grid = parameters_.time_grid();
     while (!grid.is_end(state.time))
       {
-        const double end     = grid.next(state.time, state.next_step);
-        const double dt      = end - state.time;
-        const bool   search  = (parameters_.line_search == LineSearch::always);
-        Attempt      attempt = try_step(state, dt, search);
-        if (!attempt.result.converged &&
-            parameters_.line_search == LineSearch::automatic)
+        const double       end = grid.next(state.time, state.next_step);
+        const double       dt  = end - state.time;
+        std::ostringstream text, kept;
+        text << "step " << state.step + 1 << " to t = " << end << ": ";
+        kept << " The last good state, at t = " << state.time << ", is kept.";
+        Attempt attempt;
+        try
           {
-            Attempt again = try_step(state, dt, true);
-            if (again.result.converged)
-              attempt = std::move(again);
+            attempt = try_searches(state, dt);
           }
-        std::ostringstream text;
-        text << "step " << state.step + 1 << " to t = " << end << ": "
-             << attempt.result.reason;
+        // The user's own expression, on all ranks: smaller steps don't help.
+        catch (const ExcUndefinedValue &undefined)
+          {
+            return text.str() + error_text(undefined) + kept.str();
+          }
         if (!attempt.result.converged)
           {
             state.next_step    = 0.5 * dt;
             state.n_good_steps = 0;
+            text << attempt.result.reason;
             if (state.next_step < parameters_.minimum_time_step)
-              {
-                text << ". The last good state, at t = " << state.time
-                     << ", is kept. Try a smaller 'Analysis/Minimum time "
-                        "step', or ";
-                if (parameters_.type == AnalysisType::dynamic)
-                  text << "'Scheme = generalised alpha', which damps what the "
-                          "step can't resolve.";
-                else
-                  text << "'Type = relaxation' or 'dynamic' if the path has a "
-                          "limit or bifurcation point there.";
-                return text.str();
-              }
+              return text.str() + "." + kept.str() + " " +
+                     remedy(attempt.result.kind, parameters_.type);
             messenger(text.str() + "; trying half the step");
             continue;
           }
@@ -130,6 +123,21 @@ namespace Nacre
   }
 
   PathAnalysis::Attempt
+  PathAnalysis::try_searches(const PathState &state, const double dt)
+  {
+    const bool search  = (parameters_.line_search == LineSearch::always);
+    Attempt    attempt = try_step(state, dt, search);
+    if (!attempt.result.converged &&
+        parameters_.line_search == LineSearch::automatic)
+      {
+        Attempt again = try_step(state, dt, true);
+        if (again.result.converged)
+          attempt = std::move(again);
+      }
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
   PathAnalysis::try_step(const PathState &state,
                          const double     dt,
                          const bool       line_search)
@@ -139,17 +147,53 @@ namespace Nacre
                         static_step(state, dt, line_search);
     if (attempt.result.converged)
       {
-        attempt.result.reason =
-          find_impossible_deformation(system_.discretization(),
-                                      system_.with_ghosts(state.motion.u),
-                                      system_.with_ghosts(attempt.motion.u));
-        attempt.result.converged = attempt.result.reason.empty();
+        if (parameters_.type == AnalysisType::dynamic)
+          {
+            // Not a time of the step's equation, but of its results: loads
+            // must be defined there.
+            system_.set_load_time(state.time + dt);
+            system_.work(attempt.motion.u, attempt.motion.u);
+          }
+        check_state(attempt, &state);
       }
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;
     if (parameters_.type == AnalysisType::relaxation && unstable)
-      attempt = relax(state, dt);
+      {
+        attempt = relax(state, dt);
+        // It jumps: only the state itself can be impossible.
+        if (attempt.result.converged)
+          check_state(attempt, nullptr);
+      }
+    if (!attempt.result.converged &&
+        (attempt.result.kind == FailureKind::no_convergence ||
+         attempt.result.kind == FailureKind::no_stable_state))
+      {
+        std::ostringstream where;
+        where << attempt.result.reason << "; the last increment is largest at ("
+              << system_.position_of_last_increment()
+              << ") of the undeformed surface";
+        attempt.result.reason = where.str();
+      }
     return attempt;
+  }
+
+  void
+  PathAnalysis::check_state(Attempt &attempt, const PathState *before) const
+  {
+    const Vector u              = system_.with_ghosts(attempt.motion.u);
+    auto        &reason         = attempt.result.reason;
+    const auto  &discretization = system_.discretization();
+    reason =
+      before != nullptr ?
+        find_impossible_deformation(discretization,
+                                    system_.with_ghosts(before->motion.u),
+                                    u) :
+        find_impossible_state(discretization, u);
+    if (reason.empty())
+      reason = find_torn_edge(system_.shell_operator(), u);
+    attempt.result.converged = reason.empty();
+    attempt.result.kind      = FailureKind::impossible_deformation;
   }
 
   PathAnalysis::Attempt

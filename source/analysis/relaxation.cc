@@ -50,17 +50,27 @@ namespace Nacre
     Vector               du             = system_.owned_vector();
     const Vector         rest           = system_.with_ghosts(du);
     double               largest_change = 0.;
+    bool                 has_begun      = false;
     const auto          &step           = result.last;
     while (result.iterations < max_iterations)
       {
         const Inertia inertia{mass_, rest, shift_};
         result.last = system_.solve_linearised(u, u, du, &inertia, 1.);
         ++result.iterations;
-        if (result.iterations == 1)
+        if (step.failure.kind == FailureKind::not_finite)
+          break;
+        if (step.failure.kind == FailureKind::singular_tangent)
+          {
+            shift_      = std::max(4. * shift_, least_shift_);
+            is_careful_ = true;
+            continue;
+          }
+        if (!has_begun)
           {
             // It brings the prescribed displacements, whatever that takes.
             u += du;
             largest_change = du.linfty_norm();
+            has_begun      = true;
             continue;
           }
         if (step.n_negative_pivots > 0)
@@ -88,8 +98,14 @@ namespace Nacre
                       0. :
                       shift_ * system_.product(mass_, du, du) / step.work);
       }
-    result.reason = "the dynamic relaxation found no stable state in " +
-                    std::to_string(result.iterations) + " iterations";
+    result.kind = step.failure.kind != FailureKind::none ?
+                    step.failure.kind :
+                    FailureKind::no_stable_state;
+    result.reason =
+      "the dynamic relaxation found no stable state in " +
+      std::to_string(result.iterations) + " iterations" +
+      (step.failure.text.empty() ? "" :
+                                   ": in the last one " + step.failure.text);
     return result;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/shell_system.h>
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/mpi_errors.h>
@@ -9,9 +10,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <utility>
 
 namespace Nacre
 {
+  namespace
+  {
+    StepFailure
+    singular_tangent()
+    {
+      return {FailureKind::singular_tangent,
+              "the tangent is singular to working precision"};
+    }
+  } // namespace
+
   ShellSystem::ShellSystem(const Discretization &discretization,
                            const ShellOperator  &shell_operator,
                            BoundaryConditions   &boundary_conditions,
@@ -27,6 +40,7 @@ namespace Nacre
     , area_(MassTerms(discretization).total())
     , solver_(solver)
   {
+    boundary_conditions_.set_load_factor(load_factor_);
     set_time(0.);
     shell_operator_.reinit_matrix(constraints(), matrix_);
   }
@@ -264,30 +278,22 @@ namespace Nacre
     const Vector ghosted     = with_ghosts(u);
     const auto   constraints = increment_constraints(with_ghosts(end), share);
     Vector       right_hand_side = owned_vector();
-    if (can_keep_tangent(constraints, u))
-      {
-        const CpuSum time(assembly_seconds_);
-        energies_ = shell_operator_.residual(ghosted, right_hand_side, inertia);
-        right_hand_side *= -1.;
-        condense(constraints, right_hand_side);
-      }
-    else
-      {
-        {
-          const CpuSum time(assembly_seconds_);
-          energies_ = shell_operator_.assemble(ghosted,
-                                               constraints,
-                                               matrix_,
-                                               right_hand_side,
-                                               inertia);
-        }
-        solver_.prepare({matrix_, constraints, &ghosted});
-        has_tangent_ = true;
-      }
-    du = 0.;
-    solver_.solve(du, right_hand_side);
 
     NewtonSolver::Step step;
+    step.failure = linearise(ghosted,
+                             constraints,
+                             inertia,
+                             can_keep_tangent(constraints, u),
+                             right_hand_side);
+    if (step.failure.kind != FailureKind::none)
+      return step;
+    du = 0.;
+    if (!solver_.solve(du, right_hand_side).is_regular)
+      {
+        step.failure = singular_tangent();
+        return step;
+      }
+
     step.n_negative_pivots = solver_.n_negative_pivots().value_or(0);
     // Rows of constrained dofs hold the prescribed increments.
     for (const auto &line : constraints.get_lines())
@@ -299,7 +305,90 @@ namespace Nacre
     if (prescribed_increment(constraints) <= 1e-12 * (u.linfty_norm() + size_))
       step.round_off_work = round_off_work(u);
     constraints.distribute(du);
+    last_increment_ = du;
     return step;
+  }
+
+  StepFailure
+  ShellSystem::linearise(const Vector                    &u,
+                         const AffineConstraints<double> &constraints,
+                         const Inertia                   *inertia,
+                         const bool                       keeps_tangent,
+                         Vector                          &right_hand_side)
+  {
+    if (keeps_tangent)
+      {
+        const CpuSum time(assembly_seconds_);
+        energies_ = shell_operator_.residual(u, right_hand_side, inertia);
+        right_hand_side *= -1.;
+        condense(constraints, right_hand_side);
+        return std::isfinite(right_hand_side.l2_norm()) ? StepFailure() :
+                                                          not_finite(u);
+      }
+    has_tangent_ = false;
+    {
+      const CpuSum time(assembly_seconds_);
+      energies_ = shell_operator_.assemble(u,
+                                           constraints,
+                                           matrix_,
+                                           right_hand_side,
+                                           inertia);
+    }
+    if (!std::isfinite(energies_.total() + right_hand_side.l2_norm() +
+                       matrix_.frobenius_norm()))
+      return not_finite(u);
+    if (!solver_.try_prepare({matrix_, constraints, &u}))
+      return singular_tangent();
+    has_tangent_ = true;
+    return {};
+  }
+
+  StepFailure
+  ShellSystem::not_finite(const Vector &u) const
+  {
+    std::string where = find_impossible_state(discretization_, u);
+    if (where.empty())
+      where = find_torn_edge(shell_operator_, u);
+    std::ostringstream text;
+    text << "the internal forces are infinite or not a number";
+    if (!where.empty())
+      text << ": " << where;
+    else
+      text << " at displacements of up to " << u.linfty_norm();
+    return {FailureKind::not_finite, text.str()};
+  }
+
+  Point<spacedim>
+  ShellSystem::position_of_largest(const Vector &v) const
+  {
+    double          largest = -1.;
+    Point<spacedim> position;
+    const auto     &node_dofs = discretization_.node_dofs();
+    const auto     &owned     = discretization_.locally_owned_dofs();
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    for (const auto &cell :
+         discretization_.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          const auto nodes = discretization_.node_positions(cell);
+          for (unsigned int k = 0; k < dofs.size(); ++k)
+            {
+              const auto i = dofs[node_dofs[k]];
+              if (owned.is_element(i) && std::abs(v(i)) > largest)
+                {
+                  largest  = std::abs(v(i));
+                  position = nodes[k / spacedim];
+                }
+            }
+        }
+    std::pair<double, Point<spacedim>> found(-1., position);
+    for (const auto &other :
+         Utilities::MPI::all_gather(discretization_.communicator(),
+                                    std::make_pair(largest, position)))
+      if (other.first > found.first)
+        found = other;
+    return found.second;
   }
 
   double

@@ -191,16 +191,18 @@ namespace Nacre
                                "rand isn't allowed."));
     }
 
+    /** " at x = 1, y = 2, t = 3" of the variables that there are. */
     std::string
-    describe_point(const Point<3> &point, const std::string &variables)
+    describe_point(const Point<3>    &point,
+                   const double       time,
+                   const std::string &variables)
     {
       std::ostringstream out;
       unsigned int       c = 0;
       for (const auto &name : Text::split(variables, ',', "Variables"))
         {
-          if (c == 3) // the time
-            break;
-          out << (c == 0 ? "" : ", ") << name << " = " << point[c];
+          out << (c == 0 ? " at " : ", ") << name << " = "
+              << (c < 3 ? point[c] : time);
           ++c;
         }
       return out.str();
@@ -325,15 +327,36 @@ namespace Nacre
 
 
   double
+  Expression::evaluate(const Point<3> &point, const double factor) const
+  {
+    const double value = factor * function_->value(point);
+    AssertThrow(std::isfinite(value),
+                ExcUndefinedValue(
+                  not_finite(where_, text_, value) +
+                  describe_point(point, function_->get_time(), variables_) +
+                  "; it must be finite."));
+    return value;
+  }
+
+
+  double
   Expression::operator()(const Point<3> &point) const
   {
+    return constant_ ? factor_ * value_ : evaluate(point, factor_);
+  }
+
+
+  double
+  Expression::value_at(const Point<3> &point,
+                       const double    time,
+                       const double    factor) const
+  {
     if (constant_)
-      return factor_ * value_;
-    const double value = factor_ * function_->value(point);
-    AssertThrow(std::isfinite(value),
-                ExcMessage(not_finite(where_, text_, value) + " at " +
-                           describe_point(point, variables_) +
-                           "; it must be finite."));
+      return factor * value_;
+    const double now = function_->get_time();
+    function_->set_time(time);
+    const double value = evaluate(point, factor);
+    function_->set_time(now);
     return value;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/expression.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 
@@ -152,6 +153,7 @@ namespace Nacre
                    const std::function<void()> &function)
   {
     std::string error;
+    bool        is_undefined = false;
     try
       {
         function();
@@ -159,8 +161,15 @@ namespace Nacre
     catch (const std::exception &exception)
       {
         error = error_text(exception);
+        is_undefined =
+          dynamic_cast<const ExcUndefinedValue *>(&exception) != nullptr;
       }
-    error = first_error(communicator, error);
-    AssertThrow(error.empty(), ExcMessage(error));
+    for (const auto &[text, undefined] :
+         Utilities::MPI::all_gather(communicator,
+                                    std::make_pair(error, is_undefined)))
+      {
+        AssertThrow(text.empty() || !undefined, ExcUndefinedValue(text));
+        AssertThrow(text.empty(), ExcMessage(text));
+      }
   }
 } // namespace Nacre

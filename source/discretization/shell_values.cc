@@ -271,6 +271,29 @@ namespace Nacre
     join_dofs({{cell, cell}});
   }
 
+  bool
+  ShellEdgeValues::reinit_to_neighbor(const cell_iterator &cell,
+                                      const unsigned int   face)
+  {
+    if (cell->at_boundary(face) || cell->neighbor(face)->has_children())
+      return false;
+    const cell_iterator neighbor = cell->neighbor(face);
+    const unsigned int  whole    = numbers::invalid_unsigned_int;
+    if (cell->neighbor_is_coarser(face))
+      {
+        const auto [back, subface] = cell->neighbor_of_coarser_neighbor(face);
+        reinit(cell, face, whole, neighbor, back, subface);
+      }
+    else
+      reinit(cell,
+             face,
+             whole,
+             neighbor,
+             cell->neighbor_of_neighbor(face),
+             whole);
+    return true;
+  }
+
   void
   ShellEdgeValues::update_side(const unsigned int   side,
                                const cell_iterator &cell,

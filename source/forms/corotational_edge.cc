@@ -4,6 +4,8 @@
 #include <nacre/base/simd.h>
 #include <nacre/forms/corotational_kinematics.h>
 
+#include <cmath>
+
 namespace Nacre
 {
   namespace
@@ -31,18 +33,18 @@ namespace Nacre
   {
     add_rotation_terms(edge,
                        penalty,
-                       std::vector<double>(edge.n_points(), 0.),
+                       std::vector<PrescribedRotation>(edge.n_points()),
                        u,
                        terms);
   }
 
   void
   CorotationalKinematics::add_rotation_terms(
-    const ShellEdgeValues     &edge,
-    const double               penalty,
-    const std::vector<double> &rotation,
-    const Vector<double>      &u,
-    LocalTerms                &terms)
+    const ShellEdgeValues                 &edge,
+    const double                           penalty,
+    const std::vector<PrescribedRotation> &rotation,
+    const Vector<double>                  &u,
+    LocalTerms                            &terms)
   {
     const unsigned int n_points = edge.n_points();
     const unsigned int n_nodes  = edge.shapes(0).n_nodes();
@@ -79,6 +81,19 @@ namespace Nacre
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
         add_edge_tangent(edge, s, terms);
+  }
+
+  double
+  CorotationalKinematics::rotation_gap(const ShellEdgeValues    &edge,
+                                       const unsigned int        q,
+                                       const PrescribedRotation &rotation,
+                                       const Vector<double>     &u)
+  {
+    extract_edge_nodes(edge, 0, u, edge_u_[0]);
+    edge_point_.reinit(edge, q, section_, 1., rotation, edge_u_);
+    const auto &side = edge_point_.side(0);
+    return std::atan2(cross_product_3d(side.normal, side.deformed.t0).norm(),
+                      side.normal * side.deformed.t0);
   }
 
   namespace

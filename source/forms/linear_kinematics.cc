@@ -173,17 +173,18 @@ namespace Nacre
   {
     add_rotation_terms(edge,
                        penalty,
-                       std::vector<double>(edge.n_points(), 0.),
+                       std::vector<PrescribedRotation>(edge.n_points()),
                        u,
                        terms);
   }
 
   void
-  LinearKinematics::add_rotation_terms(const ShellEdgeValues     &edge,
-                                       const double               penalty,
-                                       const std::vector<double> &rotation,
-                                       const Vector<double>      &u,
-                                       LocalTerms                &terms)
+  LinearKinematics::add_rotation_terms(
+    const ShellEdgeValues                 &edge,
+    const double                           penalty,
+    const std::vector<PrescribedRotation> &rotation,
+    const Vector<double>                  &u,
+    LocalTerms                            &terms)
   {
     const unsigned int n_points = edge.n_points();
     if (terms.wants_tangent)
@@ -197,7 +198,7 @@ namespace Nacre
         const auto weights = hinge_fluxes(edge, q, hinge_.stiffness(), penalty);
         if (terms.wants_tangent)
           fill_edge_rows(q, weights);
-        add_edge_residual(weights, rotation[q], u, terms);
+        add_edge_residual(weights, rotation[q].angle, u, terms);
       }
     // Rank two a point: one dense product for all points.
     if (terms.wants_tangent)

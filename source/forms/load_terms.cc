@@ -131,21 +131,23 @@ namespace Nacre
   {
     const auto &fe = discretization_.scalar_fe();
     for (unsigned int k = 0; k < force_points_.size(); ++k)
-      if (force_points_[k].is_mine)
-        {
-          const auto &place = force_points_[k];
-          const auto  force =
-            loads_.point_forces()[k].force(loads_.point_forces()[k].position);
-          const auto             n = discretization_.node_dofs().size();
-          dealii::Vector<double> local(n);
-          std::vector<types::global_dof_index> dofs(n);
-          place.cell->get_dof_indices(dofs);
-          for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
-            for (unsigned int c = 0; c < spacedim; ++c)
-              local[discretization_.node_dofs()[spacedim * a + c]] =
-                factor * fe.shape_value(a, place.unit) * force[c];
-          constraints.distribute_local_to_global(local, dofs, vector);
-        }
+      {
+        // On all ranks: a value that isn't finite must throw on all.
+        const auto force =
+          loads_.point_forces()[k].force(loads_.point_forces()[k].position);
+        const auto &place = force_points_[k];
+        if (!place.is_mine)
+          continue;
+        const auto             n = discretization_.node_dofs().size();
+        dealii::Vector<double> local(n);
+        std::vector<types::global_dof_index> dofs(n);
+        place.cell->get_dof_indices(dofs);
+        for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            local[discretization_.node_dofs()[spacedim * a + c]] =
+              factor * fe.shape_value(a, place.unit) * force[c];
+        constraints.distribute_local_to_global(local, dofs, vector);
+      }
     vector.compress(VectorOperation::add);
   }
 } // namespace Nacre

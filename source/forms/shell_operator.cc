@@ -151,6 +151,7 @@ namespace Nacre
     , kinematics_(make_kinematics(discretization, section, kinematics_options))
     , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
     , has_deformed_levers_(kinematics_options.model != KinematicsModel::linear)
+    , turns_(discretization, boundary_conditions)
   {
     AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
                 ExcMessage("Loads/Pressure: neighbouring cells have opposite "
@@ -296,6 +297,7 @@ namespace Nacre
     copy.wants_tangent = wants_tangent;
     // The user's expressions may be undefined on the cells of one rank only.
     run_on_all_ranks(discretization_.communicator(), [&]() {
+      turns_.update();
       MeshWorker::mesh_loop(discretization_.dof_handler().begin_active(),
                             discretization_.dof_handler().end(),
                             cell_worker,
@@ -357,16 +359,15 @@ namespace Nacre
     face.terms.reinit(face.dofs.size());
     extract(u, face.dofs, scratch.u);
     if (rotates)
-      {
-        std::vector<double> rotation(scratch.edge.n_points());
-        for (unsigned int q = 0; q < rotation.size(); ++q)
-          rotation[q] = (*conditions->second.rotation)(scratch.edge.point(q));
-        scratch.kinematics->add_rotation_terms(scratch.edge,
-                                               penalty_.boundary(cell),
-                                               rotation,
-                                               scratch.u,
-                                               face.terms);
-      }
+      scratch.kinematics->add_rotation_terms(
+        scratch.edge,
+        penalty_.boundary(cell),
+        prescribed_rotations(cell,
+                             f,
+                             *conditions->second.rotation,
+                             scratch.edge),
+        scratch.u,
+        face.terms);
     load_terms_.subtract_on_edge(id,
                                  scratch.edge,
                                  scratch.u,
@@ -436,6 +437,8 @@ namespace Nacre
     if (conditions != boundary_conditions_.edges().end() &&
         conditions->second.rotation != nullptr)
       {
+        run_on_all_ranks(discretization_.communicator(),
+                         [&]() { turns_.update(); });
         ScratchData scratch(discretization_, *kinematics_);
         LocalTerms  terms;
         terms.wants_tangent = false;
@@ -447,9 +450,11 @@ namespace Nacre
                 {
                   auto &edge = scratch.edge;
                   edge.reinit(cell, f);
-                  std::vector<double> rotation(edge.n_points());
-                  for (unsigned int q = 0; q < rotation.size(); ++q)
-                    rotation[q] = (*conditions->second.rotation)(edge.point(q));
+                  const auto rotation =
+                    prescribed_rotations(cell,
+                                         f,
+                                         *conditions->second.rotation,
+                                         edge);
                   terms.reinit(edge.n_dofs());
                   extract(&u, edge.dof_indices(), scratch.u);
                   scratch.kinematics->add_rotation_terms(edge,
@@ -474,29 +479,5 @@ namespace Nacre
                 }
       }
     return Utilities::MPI::sum(sum, discretization_.communicator());
-  }
-
-  bool
-  ShellOperator::is_consistently_oriented() const
-  {
-    ShellEdgeValues edge(discretization_);
-    bool            consistent = true;
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const auto f : cell->face_indices())
-          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
-              !cell->neighbor_is_coarser(f))
-            {
-              edge.reinit(cell,
-                          f,
-                          numbers::invalid_unsigned_int,
-                          cell->neighbor(f),
-                          cell->neighbor_of_neighbor(f),
-                          numbers::invalid_unsigned_int);
-              consistent &= (edge.sigma(1, 0) > 0.);
-            }
-    return Utilities::MPI::min(consistent ? 1 : 0,
-                               discretization_.communicator()) == 1;
   }
 } // namespace Nacre

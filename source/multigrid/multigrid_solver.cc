@@ -216,8 +216,8 @@ namespace Nacre
   }
 
 
-  void
-  MultigridSolver::prepare(const LinearSystem &system)
+  bool
+  MultigridSolver::try_prepare(const LinearSystem &system)
   {
     has_solved_ = false;
     if (levels_.back()->direct == nullptr)
@@ -232,8 +232,10 @@ namespace Nacre
         if (level.direct != nullptr)
           {
             level.matrix.reinit(matrix, IndexSet(matrix.m()));
-            level.direct->factorize(matrix);
-            is_definite &= (*level.direct->n_negative_pivots() == 0);
+            // Of a deformed shell the coarse matrix may be anything.
+            is_definite &= std::isfinite(matrix.frobenius_norm()) &&
+                           level.direct->try_factorize(matrix) &&
+                           *level.direct->n_negative_pivots() == 0;
           }
         else
           {
@@ -253,6 +255,7 @@ namespace Nacre
       }
     AssertThrow(is_definite,
                 ExcIterationFailed("the matrix is not positive definite"));
+    return true;
   }
 
 

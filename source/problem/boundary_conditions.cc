@@ -5,6 +5,8 @@
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/midsurface.h>
 
+#include <algorithm>
+
 namespace Nacre
 {
   namespace
@@ -247,6 +249,7 @@ namespace Nacre
   void
   BoundaryConditions::set_time(const double time, const double factor)
   {
+    time_ = time;
     for (auto &[id, conditions] : edges_)
       {
         for (auto &condition : conditions.displacements)
@@ -257,6 +260,49 @@ namespace Nacre
     for (auto &support : points_)
       for (auto &condition : support.displacements)
         condition.value.set_time(time, factor);
+  }
+
+  void
+  BoundaryConditions::set_load_factor(const Expression &load_factor)
+  {
+    load_factor_ = &load_factor;
+  }
+
+  namespace
+  {
+    bool
+    is_along_axis(const DisplacementCondition &condition)
+    {
+      return condition.direction == Direction::x ||
+             condition.direction == Direction::y ||
+             condition.direction == Direction::z;
+    }
+  } // namespace
+
+  bool
+  BoundaryConditions::may_turn(const EdgeConditions &conditions) const
+  {
+    return load_factor_ != nullptr &&
+           std::any_of(conditions.displacements.begin(),
+                       conditions.displacements.end(),
+                       [](const DisplacementCondition &condition) {
+                         return is_along_axis(condition) &&
+                                !condition.value.is_constant();
+                       });
+  }
+
+  Tensor<1, 3>
+  BoundaryConditions::displacement(const EdgeConditions &conditions,
+                                   const Point<3>       &point,
+                                   const double          time) const
+  {
+    const double factor = load_factor_->value_at(Point<3>(), time, 1.);
+    Tensor<1, 3> u;
+    for (const auto &condition : conditions.displacements)
+      if (is_along_axis(condition))
+        u[static_cast<unsigned int>(condition.direction)] =
+          condition.value.value_at(point, time, factor);
+    return u;
   }
 
   const std::map<types::boundary_id, EdgeConditions> &

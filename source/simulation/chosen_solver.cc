@@ -87,21 +87,20 @@ namespace Nacre
     , log_(log)
   {}
 
-  void
-  ChosenSolver::prepare(const LinearSystem &system)
+  bool
+  ChosenSolver::try_prepare(const LinearSystem &system)
   {
     system_ = std::make_unique<const LinearSystem>(system);
     if (multigrid_ == nullptr)
-      direct_.prepare(system);
-    else
-      try
-        {
-          multigrid_->prepare(system);
-        }
-      catch (const ExcIterationFailed &failure)
-        {
-          fall_back(reason(failure));
-        }
+      return direct_.try_prepare(system);
+    try
+      {
+        return multigrid_->try_prepare(system);
+      }
+    catch (const ExcIterationFailed &failure)
+      {
+        return fall_back(reason(failure));
+      }
   }
 
   SolveAccuracy
@@ -115,18 +114,23 @@ namespace Nacre
         }
       catch (const ExcIterationFailed &failure)
         {
-          fall_back(reason(failure));
+          if (!fall_back(reason(failure)))
+            {
+              SolveAccuracy accuracy;
+              accuracy.is_regular = false;
+              return accuracy;
+            }
         }
     return direct_.solve(x, b);
   }
 
-  void
+  bool
   ChosenSolver::fall_back(const std::string &reason)
   {
     log_.warning("multigrid failed: " + reason +
                  "; the direct solver takes over.");
     multigrid_.reset();
-    direct_.prepare(*system_);
+    return direct_.try_prepare(*system_);
   }
 
   std::optional<unsigned int>

@@ -469,7 +469,8 @@ namespace Nacre
 
     solver_->prepare({matrix_, constraints, nullptr});
     const auto accuracy = solver_->solve(solution, right_hand_side);
-    solver_record_      = {solver_->name(), accuracy.n_iterations};
+    check_regular(accuracy.is_regular);
+    solver_record_ = {solver_->name(), accuracy.n_iterations};
     times_.solve += timer.lap();
     judge(accuracy, log);
 

@@ -94,6 +94,17 @@ namespace Nacre
   } // namespace
 
 
+  void
+  check_regular(const bool is_regular)
+  {
+    AssertThrow(is_regular,
+                ExcMessage("The matrix is singular to working precision. "
+                           "Either the shell, or a part of it, is free to "
+                           "move, or its cells are too thin or too much "
+                           "longer than wide."));
+  }
+
+
   struct DirectSolver::Implementation
   {
     explicit Implementation(const MPI_Comm communicator)
@@ -102,7 +113,8 @@ namespace Nacre
       , first_method(quickest_method())
     {}
 
-    void
+    /** @return whether the matrix is regular. */
+    bool
     factorize(const TrilinosMatrix &matrix);
     /** Forget what another pattern of nonzero entries left. */
     void
@@ -171,7 +183,7 @@ namespace Nacre
   }
 
 
-  void
+  bool
   DirectSolver::Implementation::factorize(const TrilinosMatrix &new_matrix)
   {
     AssertDimension(new_matrix.m(), new_matrix.n());
@@ -184,14 +196,11 @@ namespace Nacre
         is_factorised = factors->factorize(new_matrix, pattern) &&
                         are_factors_good(new_matrix);
       }
-    AssertThrow(is_factorised,
-                ExcMessage("The matrix is singular to working precision. "
-                           "Either the shell, or a part of it, is free to "
-                           "move, or its cells are too thin or too much "
-                           "longer than wide."));
     // Of a row of indefinite matrices the next one is likely to be so, too.
-    first_method =
-      factors->n_negative_pivots() == 0 ? quickest_method() : method;
+    if (is_factorised)
+      first_method =
+        factors->n_negative_pivots() == 0 ? quickest_method() : method;
+    return is_factorised;
   }
 
 
@@ -233,14 +242,21 @@ namespace Nacre
   void
   DirectSolver::factorize(const TrilinosWrappers::SparseMatrix &matrix)
   {
-    implementation_->factorize(matrix);
+    check_regular(try_factorize(matrix));
   }
 
 
-  void
-  DirectSolver::prepare(const LinearSystem &system)
+  bool
+  DirectSolver::try_factorize(const TrilinosWrappers::SparseMatrix &matrix)
   {
-    factorize(system.matrix);
+    return implementation_->factorize(matrix);
+  }
+
+
+  bool
+  DirectSolver::try_prepare(const LinearSystem &system)
+  {
+    return try_factorize(system.matrix);
   }
 
 

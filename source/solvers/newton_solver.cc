@@ -59,6 +59,12 @@ namespace Nacre
         if (k == 0)
           result.first_residual = result.last.residual;
         ++result.iterations;
+        if (result.last.failure.kind != FailureKind::none)
+          {
+            result.kind   = result.last.failure.kind;
+            result.reason = result.last.failure.text;
+            return result;
+          }
         const double increment = du.linfty_norm();
         const double energy    = std::abs(result.last.work);
         if (!std::isfinite(increment + energy) ||

@@ -27,10 +27,11 @@ public:
     : good_calls_(good_calls)
   {}
 
-  void
-  prepare(const LinearSystem &) override
+  bool
+  try_prepare(const LinearSystem &) override
   {
     call();
+    return true;
   }
 
   SolveAccuracy

@@ -12,17 +12,45 @@
 
 namespace Nacre
 {
+  class ShellOperator;
+
   /**
    * Why the deformation from the ghosted displacement @p before to @p after
-   * can't be a step of a path: a cell has lost its area or has been turned
-   * inside out (its normal has turned by more than 90 degrees in the step), or
-   * the fold angle of an edge has jumped beyond 180 degrees. Empty if nothing
-   * is wrong. Collective, the same on all ranks.
+   * can't be a step of a path:
+   *
+   * - a cell has lost its area, or folds onto itself: from one point to the
+   *   next its material turns by more than 60 degrees;
+   * - a cell has been turned over: its normal has turned by more than 90
+   *   degrees in the step;
+   * - the fold angle of an edge, hanging ones included, has jumped beyond 180
+   *   degrees.
+   *
+   * Cells are looked at in a lattice of points twice as fine as their nodes,
+   * which holds the corners and the edges. Empty if nothing is wrong.
+   * Collective, the same on all ranks.
    */
   std::string
   find_impossible_deformation(const Discretization &discretization,
                               const TrilinosWrappers::MPI::Vector &before,
                               const TrilinosWrappers::MPI::Vector &after);
+
+  /**
+   * The same without the changes of the step, for states that are reached by a
+   * jump: only what is wrong with the ghosted displacement @p u itself.
+   */
+  std::string
+  find_impossible_state(const Discretization                &discretization,
+                        const TrilinosWrappers::MPI::Vector &u);
+
+  /**
+   * Why the ghosted displacement @p u tears the shell off a prescribed
+   * rotation: the normal of an edge departs by more than 90 degrees from it.
+   * Beyond, the form would pull the edge towards the opposite direction. Empty
+   * if nothing is wrong. Collective.
+   */
+  std::string
+  find_torn_edge(const ShellOperator                 &shell_operator,
+                 const TrilinosWrappers::MPI::Vector &u);
 } // namespace Nacre
 
 #endif

@@ -82,12 +82,20 @@ namespace Nacre
       MotionState          motion;
     };
 
-    /** A step; what the solver throws is a reason to fail. */
+    /** try_step() as the parameters say: with a line search, without, both. */
+    Attempt
+    try_searches(const PathState &state, const double dt);
+
     Attempt
     try_step(const PathState &state, const double dt, const bool line_search);
 
-    Attempt
-    take_step(const PathState &state, const double dt, const bool line_search);
+    /**
+     * Let an attempt that has converged fail if its deformation is impossible.
+     * @param before the state that the step has begun with; null if the attempt
+     *   has jumped
+     */
+    void
+    check_state(Attempt &attempt, const PathState *before) const;
 
     Attempt
     static_step(const PathState &state, const double dt, const bool search);

@@ -70,7 +70,10 @@ namespace Nacre
       return conditions_->constraints();
     }
 
-    /** Solve K(u) du = -r(u) such that u + du fulfils the constraints. */
+    /**
+     * Solve K(u) du = -r(u) such that u + du fulfils the constraints. Without
+     * a finite r and K, or with a singular K, the step's failure tells so.
+     */
     NewtonSolver::Step
     solve_linearised(const Vector &u, Vector &du)
     {
@@ -139,6 +142,17 @@ namespace Nacre
     Vector
     owned_vector() const;
 
+    /** Position (length) of the undeformed node where @p v is largest. */
+    Point<spacedim>
+    position_of_largest(const Vector &v) const;
+
+    /** Of the last increment that solve_linearised() has found. */
+    Point<spacedim>
+    position_of_last_increment() const
+    {
+      return position_of_largest(last_increment_);
+    }
+
     /** Largest dimension of the shell (length). */
     double
     size() const
@@ -194,6 +208,21 @@ namespace Nacre
     double
     round_off_work(const Vector &u) const;
 
+    /**
+     * Residual and, unless it is kept, a tangent ready to be solved at the
+     * ghosted displacement @p u; what prevents it.
+     */
+    StepFailure
+    linearise(const Vector                    &u,
+              const AffineConstraints<double> &constraints,
+              const Inertia                   *inertia,
+              const bool                       keeps_tangent,
+              Vector                          &right_hand_side);
+
+    /** Why forces at the ghosted displacement @p u aren't finite. */
+    StepFailure
+    not_finite(const Vector &u) const;
+
     /** Move the constrained entries to those that they depend on. */
     void
     condense(const AffineConstraints<double> &constraints, Vector &r) const;
@@ -218,6 +247,7 @@ namespace Nacre
     bool                                    has_tangent_   = false;
     Energies                                energies_;
     mutable double                          assembly_seconds_ = 0.;
+    Vector                                  last_increment_;
   };
 } // namespace Nacre
 

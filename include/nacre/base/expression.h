@@ -6,6 +6,8 @@
 
 #include <nacre/base/types.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <array>
 #include <memory>
 
@@ -18,10 +20,20 @@ namespace dealii
 namespace Nacre
 {
   /**
+   * The value of a user's expression is not a finite number: maybe only from
+   * some time on, which ends a path and not what has been computed.
+   */
+  class ExcUndefinedValue : public StandardExceptions::ExcMessage
+  {
+  public:
+    using StandardExceptions::ExcMessage::ExcMessage;
+  };
+
+  /**
    * A muParser expression of a parameter file, with named constants (and pi).
-   * Malformed text, unknown names and values that aren't finite throw an
-   * ExcMessage that names the parameter, the expression and, for a value, the
-   * point.
+   * Malformed text and unknown names throw an ExcMessage, values that aren't
+   * finite an ExcUndefinedValue: it names the parameter, the expression, the
+   * point and the time.
    */
   class Expression
   {
@@ -49,6 +61,12 @@ namespace Nacre
     double
     operator()(const Point<3> &point) const;
 
+    /** The value at another @p time and for another @p factor. */
+    double
+    value_at(const Point<3> &point,
+             const double    time,
+             const double    factor) const;
+
     /** Set the time, 0 before, and a factor of all values, 1 before. */
     void
     set_time(const double time, const double factor = 1.);
@@ -62,6 +80,10 @@ namespace Nacre
     is_zero() const;
 
   private:
+    /** The function's value times @p factor; throws if it isn't finite. */
+    double
+    evaluate(const Point<3> &point, const double factor) const;
+
     std::string                        text_;
     std::string                        where_;
     std::string                        variables_;

@@ -194,6 +194,16 @@ namespace Nacre
     void
     reinit(const cell_iterator &cell, const unsigned int face);
 
+    /**
+     * The edge that @p cell shares with an active neighbour of its size or
+     * coarser. Returns false, without such an edge, on the boundary and where
+     * finer neighbours meet the edge from their side. Over all cells that a
+     * rank owns, all ranks together meet every interior edge, hanging ones
+     * included.
+     */
+    bool
+    reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);
+
     unsigned int
     n_sides() const
     {

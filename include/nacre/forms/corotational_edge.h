@@ -7,6 +7,9 @@
 #include <nacre/base/mutation.h>
 #include <nacre/forms/corotational_cell.h>
 #include <nacre/forms/hinge_form.h>
+#include <nacre/forms/kinematics.h>
+
+#include <complex>
 
 namespace Nacre
 {
@@ -20,10 +23,11 @@ namespace Nacre
    * b = t x d. Opposite orientation: the normal of K^+ enters with sigma.
    *
    * Prescribed rotation theta_bar: R is the rotation by theta_bar about the
-   * edge that moves the conormal towards the normal, followed by the smallest
-   * rotation that takes d0 to d. On a clamped edge d = d0 and R is the
-   * prescribed rotation; the edge in a symmetry plane turns within the plane,
-   * about the plane's normal, and so does R.
+   * edge that moves the conormal towards the normal, followed by the turn Q of
+   * the edge under its prescribed displacements (EdgeTurns, 1 without any) and
+   * by the smallest rotation that takes Q d0 to d. On a clamped edge d = d0
+   * and R is the prescribed rotation; the edge in a symmetry plane turns within
+   * the plane, about the plane's normal, and so does R.
    *
    * With R t0 the turned normal of a side, lambda = dx/dnu and
    * mu = -H_m(nu, nu)^ab (x,ab - Gamma0^g_ab x,g) of the deformed positions,
@@ -56,14 +60,14 @@ namespace Nacre
     /**
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
-     * @param rotation theta_bar (rad), 0 for interior edges
+     * @param rotation not used for interior edges
      */
     void
     reinit(const ShellEdgeValues                    &edge,
            const unsigned int                        q,
            const SectionLaw                         &section,
            const double                              penalty,
-           const double                              rotation,
+           const PrescribedRotation                 &rotation,
            const std::array<NodeVectors<Number>, 2> &u)
     {
       n_sides_   = edge.n_sides();
@@ -240,18 +244,30 @@ namespace Nacre
     }
 
     void
-    rotate_as_prescribed(const Tensor<1, spacedim> &t0, const double rotation)
+    rotate_as_prescribed(const Tensor<1, spacedim> &t0,
+                         const PrescribedRotation  &rotation)
     {
       const double sine =
-        NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation);
-      const double cosine = std::cos(rotation);
+        NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation.angle);
+      const double cosine = std::cos(rotation.angle);
 
-      b0_  = nu_;
-      t_e_ = t0;
-      b_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * nu_ + sine * t0);
-      t_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * t0 - sine * nu_);
-      tangent_spin_    = EdgeRotation::smallest_spin(d0_, d_);
-      sides_[0].spin   = {{Number(0.), Number(0.)}};
+      b0_          = nu_;
+      t_e_         = t0;
+      const auto d = rotation.turn * d0_;
+      const auto b = rotation.turn * (cosine * nu_ + sine * t0);
+      const auto t = rotation.turn * (cosine * t0 - sine * nu_);
+      // Exactly opposite directions leave the axis open. An edge that has
+      // turned by 180 degrees in a symmetry plane did so about its conormal.
+      using std::real;
+      const bool is_opposite = !(real(1. + d_ * d) > 1e-14);
+      const auto axis        = rotation.turn * nu_;
+      const auto turned      = [&](const Tensor<1, spacedim> &v) {
+        return is_opposite ? 2. * (axis * v) * axis - v : v;
+      };
+      b_             = EdgeRotation::smallest<Number>(turned(d), d_, turned(b));
+      t_             = EdgeRotation::smallest<Number>(turned(d), d_, turned(t));
+      tangent_spin_  = EdgeRotation::smallest_spin(turned(d), d_);
+      sides_[0].spin = {{Number(0.), Number(0.)}};
       sides_[0].normal = t_;
     }
 

@@ -56,11 +56,17 @@ namespace Nacre
                    LocalTerms            &terms) override;
 
     void
-    add_rotation_terms(const ShellEdgeValues     &edge,
-                       const double               penalty,
-                       const std::vector<double> &rotation,
-                       const Vector<double>      &u,
-                       LocalTerms                &terms) override;
+    add_rotation_terms(const ShellEdgeValues                 &edge,
+                       const double                           penalty,
+                       const std::vector<PrescribedRotation> &rotation,
+                       const Vector<double>                  &u,
+                       LocalTerms                            &terms) override;
+
+    double
+    rotation_gap(const ShellEdgeValues    &edge,
+                 const unsigned int        q,
+                 const PrescribedRotation &rotation,
+                 const Vector<double>     &u) override;
 
     void
     add_moment_terms(const ShellEdgeValues     &edge,

@@ -62,6 +62,20 @@ namespace Nacre
     reinit(const unsigned int n_dofs);
   };
 
+  /** The rotation prescribed at a point of a boundary edge. */
+  struct PrescribedRotation
+  {
+    /** @param angle theta_bar (rad) about the edge */
+    PrescribedRotation(const double angle = 0.)
+      : angle(angle)
+      , turn(unit_symmetric_tensor<spacedim>())
+    {}
+
+    double angle;
+    /** How the prescribed displacements have turned the edge: EdgeTurns. */
+    Tensor<2, spacedim> turn;
+  };
+
   /**
    * The local terms of the shell's virtual work and their derivative at the
    * current displacement: linear, co-rotational and finite-rotation
@@ -101,15 +115,29 @@ namespace Nacre
                    LocalTerms            &terms) = 0;
 
     /**
-     * Terms of a boundary edge with the prescribed rotation
-     * @p rotation[q] (rad); data terms included.
+     * Terms of a boundary edge with the prescribed rotation @p rotation[q];
+     * data terms included.
      */
     virtual void
-    add_rotation_terms(const ShellEdgeValues     &edge,
-                       const double               penalty,
-                       const std::vector<double> &rotation,
-                       const Vector<double>      &u,
-                       LocalTerms                &terms) = 0;
+    add_rotation_terms(const ShellEdgeValues                 &edge,
+                       const double                           penalty,
+                       const std::vector<PrescribedRotation> &rotation,
+                       const Vector<double>                  &u,
+                       LocalTerms                            &terms) = 0;
+
+    /**
+     * The angle (rad) between the deformed normal and that of the prescribed
+     * rotation at the point @p q of a boundary edge; 0 where displacements are
+     * so small that nothing turns.
+     */
+    virtual double
+    rotation_gap(const ShellEdgeValues & /*edge*/,
+                 const unsigned int /*q*/,
+                 const PrescribedRotation & /*rotation*/,
+                 const Vector<double> & /*u*/)
+    {
+      return 0.;
+    }
 
     /**
      * Terms of the bending moment @p moment[q] per length (force) on a

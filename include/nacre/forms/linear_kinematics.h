@@ -47,11 +47,11 @@ namespace Nacre
                    LocalTerms            &terms) override;
 
     void
-    add_rotation_terms(const ShellEdgeValues     &edge,
-                       const double               penalty,
-                       const std::vector<double> &rotation,
-                       const Vector<double>      &u,
-                       LocalTerms                &terms) override;
+    add_rotation_terms(const ShellEdgeValues                 &edge,
+                       const double                           penalty,
+                       const std::vector<PrescribedRotation> &rotation,
+                       const Vector<double>                  &u,
+                       LocalTerms                            &terms) override;
 
     void
     add_moment_terms(const ShellEdgeValues     &edge,

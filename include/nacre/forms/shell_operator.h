@@ -5,6 +5,7 @@
 #define nacre_forms_shell_operator_h
 
 #include <nacre/forms/edge_penalty.h>
+#include <nacre/forms/edge_turns.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/load_terms.h>
 #include <nacre/forms/mass_terms.h>
@@ -18,6 +19,7 @@
 namespace Nacre
 {
   class BoundaryConditions;
+  class Expression;
   class Loads;
 
   /**
@@ -107,6 +109,23 @@ namespace Nacre
     bool
     is_consistently_oriented() const;
 
+    /** Where, and by how much, a deformed edge departs from its rotation. */
+    struct RotationGap
+    {
+      /** Between the normals, 0 to pi (rad). */
+      double angle = 0.;
+      /** On the undeformed surface (length). */
+      Point<spacedim> position;
+    };
+
+    /**
+     * The largest angle between the normal of the deformed edge and that of its
+     * prescribed rotation at the ghosted displacement @p u; collective, the
+     * same on all ranks.
+     */
+    RotationGap
+    largest_rotation_gap(const Vector &u) const;
+
   private:
     struct ScratchData;
     struct FaceCopy;
@@ -143,6 +162,14 @@ namespace Nacre
                     ScratchData &scratch,
                     CopyData    &copy) const;
 
+    /** Rotations prescribed at the points of @p edge, the one of a cell. */
+    std::vector<PrescribedRotation>
+    prescribed_rotations(
+      const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+      const unsigned int                                     face,
+      const Expression                                      &rotation,
+      const ShellEdgeValues                                 &edge) const;
+
     const Discretization       &discretization_;
     const SectionLaw           &section_;
     const BoundaryConditions   &boundary_conditions_;
@@ -154,6 +181,8 @@ namespace Nacre
     const bool symmetrizes_;
     /** Whether moments take the deformed positions. */
     const bool has_deformed_levers_;
+    /** Brought up to the time of the conditions before each use. */
+    mutable EdgeTurns turns_;
   };
 } // namespace Nacre
 

@@ -93,10 +93,10 @@ namespace Nacre
     /**
      * Assemble the coarse matrices at the displacement of @p system, and invert
      * the patches. Throws ExcIterationFailed if a patch is not positive
-     * definite.
+     * definite, or a coarse matrix neither finite nor regular.
      */
-    void
-    prepare(const LinearSystem &system) override;
+    bool
+    try_prepare(const LinearSystem &system) override;
 
     /**
      * Throws ExcIterationFailed if the iteration doesn't converge, or if

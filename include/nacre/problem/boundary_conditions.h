@@ -89,6 +89,37 @@ namespace Nacre
     void
     set_time(const double time, const double factor);
 
+    /**
+     * The factor over t that set_time() will be called with, which must live as
+     * long: with it past displacements are known.
+     */
+    void
+    set_load_factor(const Expression &load_factor);
+
+    /** Of the last set_time(). */
+    double
+    time() const
+    {
+      return time_;
+    }
+
+    /**
+     * Whether the displacements of an edge may turn it: some along the axes are
+     * no constants, and the load factor is known.
+     */
+    bool
+    may_turn(const EdgeConditions &conditions) const;
+
+    /**
+     * The displacement (length) that is prescribed along the axes at @p point
+     * of an edge at any @p time; components that are free are zero. Throws
+     * where an expression isn't finite.
+     */
+    Tensor<1, 3>
+    displacement(const EdgeConditions &conditions,
+                 const Point<3>       &point,
+                 const double          time) const;
+
     const std::map<types::boundary_id, EdgeConditions> &
     edges() const;
 
@@ -118,6 +149,8 @@ namespace Nacre
 
     std::map<types::boundary_id, EdgeConditions> edges_;
     std::vector<PointSupport>                    points_;
+    const Expression                            *load_factor_ = nullptr;
+    double                                       time_        = 0.;
   };
 } // namespace Nacre
 

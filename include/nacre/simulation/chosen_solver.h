@@ -61,8 +61,8 @@ namespace Nacre
                  const Factory &make_multigrid,
                  Log           &log);
 
-    void
-    prepare(const LinearSystem &system) override;
+    bool
+    try_prepare(const LinearSystem &system) override;
 
     SolveAccuracy
     solve(TrilinosWrappers::MPI::Vector       &x,
@@ -80,7 +80,8 @@ namespace Nacre
     name() const;
 
   private:
-    void
+    /** @return whether the direct solver finds the matrix regular. */
+    bool
     fall_back(const std::string &reason);
 
     DirectSolver                  direct_;

@@ -41,9 +41,13 @@ namespace Nacre
     void
     factorize(const TrilinosWrappers::SparseMatrix &matrix);
 
-    /** factorize() its matrix. */
-    void
-    prepare(const LinearSystem &system) override;
+    /** The same, but returns false for a matrix that is singular. */
+    bool
+    try_factorize(const TrilinosWrappers::SparseMatrix &matrix);
+
+    /** try_factorize() its matrix. */
+    bool
+    try_prepare(const LinearSystem &system) override;
 
     /** Number of negative pivots of the last factorisation. */
     std::optional<unsigned int>

@@ -42,6 +42,11 @@ namespace Nacre
     double correction = 0.;
     /** Iterations of an iterative solver; 0 for a direct one. */
     unsigned int n_iterations = 0;
+    /**
+     * False if a solver that took over found the matrix singular; the solution
+     * is meaningless then.
+     */
+    bool is_regular = true;
   };
 
   /** A linear system of a shell, K x = b, as solvers need to know it. */
@@ -61,6 +66,10 @@ namespace Nacre
    */
   DeclException1(ExcIterationFailed, std::string, << arg1);
 
+  /** Throw if a matrix is singular to working precision: what may cause it. */
+  void
+  check_regular(const bool is_regular);
+
   /** A solver of symmetric linear systems for any number of right-hand sides.
    */
   class LinearSolver
@@ -70,10 +79,20 @@ namespace Nacre
 
     /**
      * Take a new matrix, which must stay alive and unchanged for solve().
-     * Throws on all ranks; collective.
+     * Throws on all ranks, for a singular matrix too; collective.
      */
-    virtual void
-    prepare(const LinearSystem &system) = 0;
+    void
+    prepare(const LinearSystem &system)
+    {
+      check_regular(try_prepare(system));
+    }
+
+    /**
+     * The same, but returns false for a matrix that is singular to working
+     * precision, as a tangent may be.
+     */
+    virtual bool
+    try_prepare(const LinearSystem &system) = 0;
 
     /**
      * The vectors are distributed as the matrix' rows, without ghosts; a

@@ -4,6 +4,8 @@
 #ifndef nacre_solvers_newton_solver_h
 #define nacre_solvers_newton_solver_h
 
+#include <nacre/solvers/step_failure.h>
+
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
@@ -52,6 +54,8 @@ namespace Nacre
       double round_off_work = 0.;
       /** Negative eigenvalues of K. */
       unsigned int n_negative_pivots = 0;
+      /** Why there is no increment; the rest is meaningless then. */
+      StepFailure failure;
     };
 
     struct Result
@@ -62,7 +66,8 @@ namespace Nacre
       Step last;
       /** |r| of the first linearisation. */
       double first_residual = 0.;
-      /** Why it failed, for the user. */
+      /** What it met if it failed, and why in words for the user. */
+      FailureKind kind = FailureKind::no_convergence;
       std::string reason;
     };
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_analysis_path_failure_h
+#define nacre_analysis_path_failure_h
+
+#include <nacre/analysis/path_parameters.h>
+#include <nacre/solvers/step_failure.h>
+
+#include <string>
+
+namespace Nacre
+{
+  /** What helps a path of the @p type that steps of any size can't go on. */
+  std::string
+  remedy(const FailureKind kind, const AnalysisType type);
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/analysis/path_failure.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** For a path that has no equilibrium, or several, nearby. */
+    std::string
+    other_analysis(const AnalysisType type)
+    {
+      switch (type)
+        {
+          case AnalysisType::dynamic:
+            return "'Scheme = generalised alpha', which damps what the step "
+                   "can't resolve";
+          case AnalysisType::relaxation:
+            return "'Type = dynamic'";
+          default:
+            return "'Type = relaxation' or 'dynamic' if the path has a limit "
+                   "or bifurcation point there";
+        }
+    }
+  } // namespace
+
+  std::string
+  remedy(const FailureKind kind, const AnalysisType type)
+  {
+    switch (kind)
+      {
+        case FailureKind::impossible_deformation:
+          return "Try a finer mesh or a higher degree there: a cell can't "
+                 "follow a sharp bend; or " +
+                 other_analysis(type) + ".";
+        case FailureKind::singular_tangent:
+          return "The shell, or a part of it, may move freely in that state, "
+                 "its cells may be too thin, or the path bifurcates there: "
+                 "prescribe more, or try " +
+                 other_analysis(type) + ".";
+        case FailureKind::not_finite:
+          return "Cells collapse, or the loads or the stiffness are of an "
+                 "extreme size: check their units, or try a finer mesh.";
+        case FailureKind::no_stable_state:
+          return "Try more 'Analysis/Maximum iterations', or " +
+                 other_analysis(type) + ".";
+        default:
+          return "Try a smaller 'Analysis/Minimum time step', or " +
+                 other_analysis(type) + ".";
+      }
+  }
+} // namespace Nacre
