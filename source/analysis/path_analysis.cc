@@ -6,6 +6,7 @@
 #include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 
 namespace Nacre
@@ -20,7 +21,10 @@ namespace Nacre
                   parameters.mass_damping)
   {
     if (parameters.type == AnalysisType::dynamic)
-      mass_.emplace(system.discretization(), section);
+      {
+        mass_.emplace(system.discretization(), section);
+        ledger_.emplace(system, *mass_, parameters.mass_damping);
+      }
     else if (parameters.type == AnalysisType::relaxation)
       mass_.emplace(system.discretization());
   }
@@ -42,10 +46,11 @@ namespace Nacre
     motion.u = system_.interpolate(parameters_.initial_displacement);
     motion.v = system_.interpolate(parameters_.initial_velocity);
     system_.constraints().distribute(motion.u);
-    motion.a = system_.acceleration(motion.u,
+    motion.a      = system_.acceleration(motion.u,
                                     motion.v,
                                     parameters_.mass_damping,
                                     *mass_);
+    state.balance = ledger_->start(motion, parameters_.time_step);
     return state;
   }
 
@@ -97,9 +102,13 @@ namespace Nacre
             messenger(text.str() + "; trying half the step");
             continue;
           }
+        const std::string gain = find_energy_gain(attempt.balance);
+        if (!gain.empty())
+          return text.str() + gain;
         ++state.step;
         state.time   = std::abs(left - dt) <= tolerance ? end : state.time + dt;
         state.motion = std::move(attempt.motion);
+        state.balance           = attempt.balance;
         state.load_factor       = system_.load_factor();
         state.iterations        = attempt.result.iterations;
         state.residual          = attempt.result.last.residual;
@@ -179,40 +188,73 @@ namespace Nacre
                              const bool       search)
   {
     const MotionState &start = state.motion;
+    system_.set_load_time(state.time);
+    const StepStart step_start = system_.step_start(start.u);
     system_.set_time(state.time + dt);
     system_.keep_tangent(parameters_.keeps_tangent);
     auto parameters          = parameters_.newton;
     parameters.max_increment = 100. * system_.size();
     const NewtonSolver newton(parameters);
     // The loads are those of t_f, the constraints those of the end.
-    system_.set_load_time(integrator_.force_time(state.time, dt));
+    const bool   conserves = parameters_.scheme == TimeScheme::energy_momentum;
+    const double t_f       = integrator_.force_time(state.time, dt);
+    if (conserves)
+      system_.set_force_time(t_f);
+    else
+      system_.set_load_time(t_f);
 
     const auto inertia = [&](const Vector &u_f) {
       return system_.with_ghosts(integrator_.inertia(start, u_f, dt));
     };
-    const double factor    = integrator_.inertia_factor(dt);
-    const auto   linearise = [&](const Vector &u_f, Vector &du) {
-      const Vector  w = inertia(u_f);
-      const Inertia terms{*mass_, w, factor};
+    const double factor = integrator_.inertia_factor(dt);
+    const auto   terms  = [&](const Vector &w) {
+      return Inertia{*mass_, w, factor, conserves ? &step_start : nullptr};
+    };
+    const auto linearise = [&](const Vector &u_f, Vector &du) {
+      const Vector  w          = inertia(u_f);
+      const Inertia terms_of_w = terms(w);
       return system_.solve_linearised(u_f,
                                       integrator_.end_displacement(start, u_f),
                                       du,
-                                      &terms,
+                                      &terms_of_w,
                                       integrator_.share());
     };
     NewtonSolver::Work work;
     if (search)
       work = [&](const Vector &u_f, const Vector &du) {
-        const Vector  w = inertia(u_f);
-        const Inertia terms{*mass_, w, factor};
-        return system_.work(u_f, du, &terms);
+        const Vector  w          = inertia(u_f);
+        const Inertia terms_of_w = terms(w);
+        return system_.work(u_f, du, &terms_of_w);
       };
     // Start where a constant velocity would lead.
     Vector u_f = start.u;
     u_f.add(integrator_.share() * dt, start.v);
     Attempt attempt{newton.solve(u_f, linearise, work), {}};
     attempt.motion = integrator_.end_state(start, u_f, dt);
+    if (attempt.result.converged)
+      {
+        const Vector w  = inertia(u_f);
+        attempt.balance = ledger_->after_step(
+          state.balance,
+          {state.time, dt, start, attempt.motion, step_start, u_f, terms(w)});
+      }
     return attempt;
+  }
+
+  std::string
+  PathAnalysis::find_energy_gain(const EnergyBalance &balance) const
+  {
+    const double gain = balance.relative_gain();
+    if (!balance.is_kept || gain <= 0.1)
+      return "";
+    std::ostringstream text;
+    text << std::setprecision(3)
+         << "the motion has gained an energy that nothing has put in, "
+         << balance.gain() << " or " << 100. * gain
+         << " % of the largest energy so far; 10 % are allowed. The state "
+            "before is kept. Choose 'Analysis/Scheme = energy momentum', which "
+            "conserves energy, or a smaller 'Analysis/Time step'.";
+    return text.str();
   }
 
   PathAnalysis::Attempt

@@ -28,9 +28,16 @@ namespace Nacre
       , edge(other.edge)
     {}
 
+    /** Set both ends of a step of which u is the mean. */
+    void
+    set_ends(const StepStart                            &start,
+             const std::vector<types::global_dof_index> &dofs);
+
     std::unique_ptr<Kinematics> kinematics;
     ShellEdgeValues             edge;
     dealii::Vector<double>      u;
+    dealii::Vector<double>      u_start;
+    dealii::Vector<double>      u_end;
   };
 
   struct ShellOperator::FaceCopy
@@ -134,6 +141,16 @@ namespace Nacre
       return sum;
     }
   } // namespace
+
+  void
+  ShellOperator::ScratchData::set_ends(
+    const StepStart                            &start,
+    const std::vector<types::global_dof_index> &dofs)
+  {
+    extract(&start.u, dofs, u_start);
+    u_end = u;
+    u_end.sadd(2., -1., u_start);
+  }
 
   ShellOperator::ShellOperator(const Discretization        &discretization,
                                const SectionLaw            &section,
@@ -279,6 +296,8 @@ namespace Nacre
                       const Copier  &copier) const
   {
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+    const StepStart *const start =
+      inertia != nullptr ? inertia->start : nullptr;
 
     const auto cell_worker =
       [&](const Iterator &cell, ScratchData &scratch, CopyData &copy) {
@@ -297,17 +316,28 @@ namespace Nacre
       face.dofs      = scratch.edge.dof_indices();
       face.terms.reinit(face.dofs.size());
       extract(u, face.dofs, scratch.u);
-      scratch.kinematics->add_edge_terms(scratch.edge,
-                                         penalty_.interior(cell, neighbor),
-                                         scratch.u,
-                                         face.terms);
+      const double penalty = penalty_.interior(cell, neighbor);
+      if (start == nullptr)
+        scratch.kinematics->add_edge_terms(scratch.edge,
+                                           penalty,
+                                           scratch.u,
+                                           face.terms);
+      else
+        {
+          scratch.set_ends(*start, face.dofs);
+          scratch.kinematics->add_edge_step_terms(scratch.edge,
+                                                  penalty,
+                                                  scratch.u_start,
+                                                  scratch.u_end,
+                                                  face.terms);
+        }
       copy.take_block(face);
     };
     const auto boundary_worker = [&](const Iterator    &cell,
                                      const unsigned int f,
                                      ScratchData       &scratch,
                                      CopyData          &copy) {
-      this->boundary_worker(cell, f, u, scratch, copy);
+      this->boundary_worker(cell, f, u, start, scratch, copy);
     };
 
     CopyData copy;
@@ -342,13 +372,23 @@ namespace Nacre
     cell->get_dof_indices(copy.dofs);
     copy.terms.reinit(copy.dofs.size());
     extract(u, copy.dofs, scratch.u);
-    scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
+    if (inertia == nullptr || inertia->start == nullptr)
+      scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
+    else
+      {
+        scratch.set_ends(*inertia->start, copy.dofs);
+        scratch.kinematics->add_cell_step_terms(cell,
+                                                scratch.u_start,
+                                                scratch.u_end,
+                                                copy.terms);
+      }
     if (!loads_.no_surface_load())
       subtract_surface_loads(scratch.kinematics->cell_values(),
                              copy.terms.residual);
     if (loads_.pressure_follows())
       subtract_following_pressure(scratch.kinematics->cell_values(),
                                   scratch.u,
+                                  scratch.u_start,
                                   copy.terms);
     if (inertia != nullptr)
       inertia->add(cell,
@@ -356,46 +396,6 @@ namespace Nacre
                    discretization_.node_dofs(),
                    copy.terms.residual,
                    copy.wants_tangent ? &copy.terms.tangent : nullptr);
-  }
-
-  void
-  ShellOperator::subtract_following_pressure(const ShellCellValues &values,
-                                             const dealii::Vector<double> &u,
-                                             LocalTerms &terms) const
-  {
-    const auto &shapes = values.shapes();
-    for (unsigned int q = 0; q < values.n_points(); ++q)
-      {
-        auto phi = values.frame(q).a_cov;
-        for (unsigned int a = 0; u.size() > 0 && a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              phi[alpha][c] +=
-                shapes.gradient(q, a)[alpha] * u[values.dof(a, c)];
-        const double p =
-          loads_.pressure(values.point(q)) * values.JxW(q) / values.frame(q).j0;
-        const auto force = p * cross_product_3d(phi[0], phi[1]);
-        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            terms.residual[values.dof(a, c)] -= shapes.value(q, a) * force[c];
-        if (!terms.wants_tangent)
-          continue;
-        for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
-          {
-            // d(phi,1 x phi,2) = du,1 x phi,2 + phi,1 x du,2 = m x du
-            const auto m = shapes.gradient(q, b)[1] * phi[0] -
-                           shapes.gradient(q, b)[0] * phi[1];
-            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                {
-                  const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
-                  const double       w = p * shapes.value(q, a);
-                  terms.tangent(values.dof(a, c), values.dof(b, e)) -=
-                    NACRE_MUTABLE(following_tangent, 1., -1.) * w * m[d];
-                  terms.tangent(values.dof(a, c), values.dof(b, d)) += w * m[e];
-                }
-          }
-      }
   }
 
   void
@@ -422,6 +422,7 @@ namespace Nacre
     const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
     const unsigned int                                     f,
     const Vector                                          *u,
+    const StepStart                                       *start,
     ScratchData                                           &scratch,
     CopyData                                              &copy) const
   {
@@ -438,16 +439,24 @@ namespace Nacre
     face.dofs      = scratch.edge.dof_indices();
     face.terms.reinit(face.dofs.size());
     extract(u, face.dofs, scratch.u);
-    if (rotates)
+    if (rotates && start == nullptr)
+      scratch.kinematics->add_rotation_terms(scratch.edge,
+                                             penalty_.boundary(cell),
+                                             prescribed_rotation(id,
+                                                                 scratch.edge),
+                                             scratch.u,
+                                             face.terms);
+    else if (rotates)
       {
-        std::vector<double> rotation(scratch.edge.n_points());
-        for (unsigned int q = 0; q < rotation.size(); ++q)
-          rotation[q] = (*conditions->second.rotation)(scratch.edge.point(q));
-        scratch.kinematics->add_rotation_terms(scratch.edge,
-                                               penalty_.boundary(cell),
-                                               rotation,
-                                               scratch.u,
-                                               face.terms);
+        scratch.set_ends(*start, face.dofs);
+        scratch.kinematics->add_rotation_step_terms(
+          scratch.edge,
+          penalty_.boundary(cell),
+          start->rotations.at({cell->active_cell_index(), f}),
+          prescribed_rotation(id, scratch.edge),
+          scratch.u_start,
+          scratch.u_end,
+          face.terms);
       }
     add_edge_loads(id,
                    scratch.edge,

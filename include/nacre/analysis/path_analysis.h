@@ -4,6 +4,7 @@
 #ifndef nacre_analysis_path_analysis_h
 #define nacre_analysis_path_analysis_h
 
+#include <nacre/analysis/energy_ledger.h>
 #include <nacre/analysis/path_parameters.h>
 #include <nacre/analysis/shell_system.h>
 
@@ -23,6 +24,8 @@ namespace Nacre
     /** Good steps since the last change of size. */
     unsigned int n_good_steps = 0;
     MotionState  motion;
+    /** Of a dynamic path. */
+    EnergyBalance balance;
 
     /** @name The last step */
     //@{
@@ -76,6 +79,7 @@ namespace Nacre
     {
       NewtonSolver::Result result;
       MotionState          motion;
+      EnergyBalance        balance = {};
     };
 
     /** A step; what the solver throws is a reason to fail. */
@@ -90,6 +94,10 @@ namespace Nacre
 
     Attempt
     dynamic_step(const PathState &state, const double dt, const bool search);
+
+    /** Why a dynamic path must not go on with this balance; or "". */
+    std::string
+    find_energy_gain(const EnergyBalance &balance) const;
 
     /**
      * Dynamic relaxation: linearly implicit Euler steps, each from rest, of a
@@ -111,6 +119,8 @@ namespace Nacre
     ShellSystem             &system_;
     const TimeIntegrator     integrator_;
     std::optional<MassTerms> mass_;
+    /** In dynamics only. */
+    std::optional<EnergyLedger> ledger_;
   };
 } // namespace Nacre
 

@@ -8,8 +8,26 @@
 #include <nacre/forms/corotational_cell.h>
 #include <nacre/forms/hinge_form.h>
 
+#include <utility>
+
 namespace Nacre
 {
+  /**
+   * The conormal @p nu and the normal @p t0 of an edge after the rotation by
+   * @p rotation (rad) about the edge that moves the conormal towards the
+   * normal.
+   */
+  inline std::pair<Tensor<1, spacedim>, Tensor<1, spacedim>>
+  prescribed_frame(const Tensor<1, spacedim> &nu,
+                   const Tensor<1, spacedim> &t0,
+                   const double               rotation)
+  {
+    const double sine =
+      NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation);
+    const double cosine = std::cos(rotation);
+    return {cosine * nu + sine * t0, cosine * t0 - sine * nu};
+  }
+
   /**
    * The hinge form in the frame that turns with the edge, at one point:
    * f = R K^e (R^T x - X0), (48) with the linear form's K^e.
@@ -128,6 +146,44 @@ namespace Nacre
       return stretch_;
     }
 
+    /** t and b = t x d of the deformed edge. */
+    const Vector &
+    normal() const
+    {
+      return t_;
+    }
+
+    const Vector &
+    binormal() const
+    {
+      return b_;
+    }
+
+    /** t_e and b0 of the undeformed edge. */
+    const Tensor<1, spacedim> &
+    initial_normal() const
+    {
+      return t_e_;
+    }
+
+    const Tensor<1, spacedim> &
+    initial_binormal() const
+    {
+      return b0_;
+    }
+
+    /**
+     * Take the means of [[theta]] and {m_nn} of both ends of a step instead,
+     * and the forces with them; the frames stay.
+     */
+    void
+    take_mean_strains(const CorotationalEdgePoint<Number> &start,
+                      const CorotationalEdgePoint<Number> &end)
+    {
+      jump_ = 0.5 * (start.jump_ + end.jump_);
+      mean_ = 0.5 * (start.mean_ + end.mean_);
+    }
+
     /** Undeformed d0. */
     const Tensor<1, spacedim> &
     initial_tangent() const
@@ -242,17 +298,14 @@ namespace Nacre
     void
     rotate_as_prescribed(const Tensor<1, spacedim> &t0, const double rotation)
     {
-      const double sine =
-        NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation);
-      const double cosine = std::cos(rotation);
-
-      b0_  = nu_;
-      t_e_ = t0;
-      b_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * nu_ + sine * t0);
-      t_   = EdgeRotation::smallest<Number>(d0_, d_, cosine * t0 - sine * nu_);
-      tangent_spin_    = EdgeRotation::smallest_spin(d0_, d_);
-      sides_[0].spin   = {{Number(0.), Number(0.)}};
-      sides_[0].normal = t_;
+      const auto [p_b, p_t] = prescribed_frame(nu_, t0, rotation);
+      b0_                   = nu_;
+      t_e_                  = t0;
+      b_                    = EdgeRotation::smallest<Number>(d0_, d_, p_b);
+      t_                    = EdgeRotation::smallest<Number>(d0_, d_, p_t);
+      tangent_spin_         = EdgeRotation::smallest_spin(d0_, d_);
+      sides_[0].spin        = {{Number(0.), Number(0.)}};
+      sides_[0].normal      = t_;
     }
 
     unsigned int        n_sides_ = 0;

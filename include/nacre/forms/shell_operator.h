@@ -7,6 +7,7 @@
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/mass_terms.h>
+#include <nacre/forms/step_start.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -86,6 +87,24 @@ namespace Nacre
     energies(const Vector &u) const;
 
     /**
+     * The nodes' forces (force) of all loads at the ghosted displacement @p u,
+     * the mean of a step from the ghosted @p u_start; collective.
+     */
+    void
+    loads(const Vector &u, const Vector &u_start, Vector &result) const;
+
+    /** The prescribed rotations of this rank's edges. */
+    PrescribedRotations
+    prescribed_rotations() const;
+
+    /**
+     * Work (force times length) of the supports that prescribe rotations, from
+     * @p start to the ghosted @p u_end and the rotations now; collective.
+     */
+    double
+    rotation_work(const StepStart &start, const Vector &u_end) const;
+
+    /**
      * The virtual work of the rotation conditions of the edge @p id on a
      * rigid rotation about the three axes: the part of the reaction moment
      * that the nodes' forces don't carry (force times length).
@@ -133,8 +152,9 @@ namespace Nacre
     boundary_worker(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
                     const unsigned int                                     face,
                     const Vector                                          *u,
-                    ScratchData &scratch,
-                    CopyData    &copy) const;
+                    const StepStart *start,
+                    ScratchData     &scratch,
+                    CopyData        &copy) const;
 
     void
     subtract_surface_loads(const ShellCellValues  &values,
@@ -142,12 +162,21 @@ namespace Nacre
 
     /**
      * Pressure along the deformed normal on the deformed area: the force per
-     * reference area is p phi,1 x phi,2; with its derivative.
+     * reference area is p phi,1 x phi,2; with its derivative. If @p u_start
+     * isn't empty, the mean over the straight way of a step from there, of
+     * which @p u is the mean: its work is the pressure times the volume that
+     * the surface sweeps.
      */
     void
     subtract_following_pressure(const ShellCellValues        &values,
                                 const dealii::Vector<double> &u,
+                                const dealii::Vector<double> &u_start,
                                 LocalTerms                   &terms) const;
+
+    /** Rotations (rad) at the points of a boundary edge; empty if free. */
+    std::vector<double>
+    prescribed_rotation(const types::boundary_id id,
+                        const ShellEdgeValues   &edge) const;
 
     void
     add_edge_loads(const types::boundary_id      id,
