@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/deformation_check.h>
+#include <nacre/analysis/dynamic_step.h>
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/base/mpi_errors.h>
 
@@ -187,57 +188,16 @@ namespace Nacre
                              const double     dt,
                              const bool       search)
   {
-    const MotionState &start = state.motion;
-    system_.set_load_time(state.time);
-    const StepStart step_start = system_.step_start(start.u);
-    system_.set_time(state.time + dt);
-    system_.keep_tangent(parameters_.keeps_tangent);
-    auto parameters          = parameters_.newton;
-    parameters.max_increment = 100. * system_.size();
-    const NewtonSolver newton(parameters);
-    // The loads are those of t_f, the constraints those of the end.
-    const bool   conserves = parameters_.scheme == TimeScheme::energy_momentum;
-    const double t_f       = integrator_.force_time(state.time, dt);
-    if (conserves)
-      system_.set_force_time(t_f);
-    else
-      system_.set_load_time(t_f);
-
-    const auto inertia = [&](const Vector &u_f) {
-      return system_.with_ghosts(integrator_.inertia(start, u_f, dt));
-    };
-    const double factor = integrator_.inertia_factor(dt);
-    const auto   terms  = [&](const Vector &w) {
-      return Inertia{*mass_, w, factor, conserves ? &step_start : nullptr};
-    };
-    const auto linearise = [&](const Vector &u_f, Vector &du) {
-      const Vector  w          = inertia(u_f);
-      const Inertia terms_of_w = terms(w);
-      return system_.solve_linearised(u_f,
-                                      integrator_.end_displacement(start, u_f),
-                                      du,
-                                      &terms_of_w,
-                                      integrator_.share());
-    };
-    NewtonSolver::Work work;
-    if (search)
-      work = [&](const Vector &u_f, const Vector &du) {
-        const Vector  w          = inertia(u_f);
-        const Inertia terms_of_w = terms(w);
-        return system_.work(u_f, du, &terms_of_w);
-      };
-    // Start where a constant velocity would lead.
-    Vector u_f = start.u;
-    u_f.add(integrator_.share() * dt, start.v);
-    Attempt attempt{newton.solve(u_f, linearise, work), {}};
-    attempt.motion = integrator_.end_state(start, u_f, dt);
+    DynamicStep step(system_,
+                     *mass_,
+                     integrator_,
+                     parameters_,
+                     state.motion,
+                     state.time,
+                     dt);
+    Attempt     attempt{step.solve(search), step.end()};
     if (attempt.result.converged)
-      {
-        const Vector w  = inertia(u_f);
-        attempt.balance = ledger_->after_step(
-          state.balance,
-          {state.time, dt, start, attempt.motion, step_start, u_f, terms(w)});
-      }
+      attempt.balance = step.balance(*ledger_, state.balance, attempt.motion);
     return attempt;
   }
 
