@@ -2,12 +2,14 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/deformation_check.h>
+#include <nacre/analysis/dynamic_step.h>
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/analysis/path_failure.h>
 #include <nacre/analysis/relaxation.h>
 #include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <sstream>
 
 namespace Nacre
@@ -22,7 +24,10 @@ namespace Nacre
                   parameters.mass_damping)
   {
     if (parameters.type == AnalysisType::dynamic)
-      mass_.emplace(system.discretization(), section);
+      {
+        mass_.emplace(system.discretization(), section);
+        ledger_.emplace(system, *mass_, parameters.mass_damping);
+      }
     else if (parameters.type == AnalysisType::relaxation)
       mass_.emplace(system.discretization());
   }
@@ -49,10 +54,11 @@ namespace Nacre
       motion.v = start->v;
     motion.v += system_.interpolate(std::cref(parameters_.initial_velocity));
     system_.constraints().distribute(motion.u);
-    motion.a = system_.acceleration(motion.u,
+    motion.a      = system_.acceleration(motion.u,
                                     motion.v,
                                     parameters_.mass_damping,
                                     *mass_);
+    state.balance = ledger_->start(motion, parameters_.time_step);
     return state;
   }
 
@@ -92,9 +98,13 @@ namespace Nacre
             messenger(text.str() + "; trying half the step");
             continue;
           }
+        const std::string gain = find_energy_gain(attempt.balance);
+        if (!gain.empty())
+          return text.str() + gain;
         ++state.step;
         state.time              = end;
         state.motion            = std::move(attempt.motion);
+        state.balance           = attempt.balance;
         state.load_factor       = system_.load_factor();
         state.iterations        = attempt.result.iterations;
         state.residual          = attempt.result.last.residual;
@@ -224,41 +234,33 @@ namespace Nacre
                              const double     dt,
                              const bool       search)
   {
-    const MotionState &start = state.motion;
-    system_.set_time(state.time + dt);
-    system_.keep_tangent(parameters_.keeps_tangent);
-    auto parameters          = parameters_.newton;
-    parameters.max_increment = 100. * system_.size();
-    const NewtonSolver newton(parameters);
-    // The loads are those of t_f, the constraints those of the end.
-    system_.set_load_time(integrator_.force_time(state.time, dt));
-
-    const auto inertia = [&](const Vector &u_f) {
-      return system_.with_ghosts(integrator_.inertia(start, u_f, dt));
-    };
-    const double factor    = integrator_.inertia_factor(dt);
-    const auto   linearise = [&](const Vector &u_f, Vector &du) {
-      const Vector  w = inertia(u_f);
-      const Inertia terms{*mass_, w, factor};
-      return system_.solve_linearised(u_f,
-                                      integrator_.end_displacement(start, u_f),
-                                      du,
-                                      &terms,
-                                      integrator_.share());
-    };
-    NewtonSolver::Work work;
-    if (search)
-      work = [&](const Vector &u_f, const Vector &du) {
-        const Vector  w = inertia(u_f);
-        const Inertia terms{*mass_, w, factor};
-        return system_.work(u_f, du, &terms);
-      };
-    // Start where a constant velocity would lead.
-    Vector u_f = start.u;
-    u_f.add(integrator_.share() * dt, start.v);
-    Attempt attempt{newton.solve(u_f, linearise, work), {}};
-    attempt.motion = integrator_.end_state(start, u_f, dt);
+    DynamicStep step(system_,
+                     *mass_,
+                     integrator_,
+                     parameters_,
+                     state.motion,
+                     state.time,
+                     dt);
+    Attempt     attempt{step.solve(search), step.end()};
+    if (attempt.result.converged)
+      attempt.balance = step.balance(*ledger_, state.balance, attempt.motion);
     return attempt;
+  }
+
+  std::string
+  PathAnalysis::find_energy_gain(const EnergyBalance &balance) const
+  {
+    const double gain = balance.relative_gain();
+    if (!balance.is_kept || gain <= 0.1)
+      return "";
+    std::ostringstream text;
+    text << std::setprecision(3)
+         << "the motion has gained an energy that nothing has put in, "
+         << balance.gain() << " or " << 100. * gain
+         << " % of the largest energy so far; 10 % are allowed. The state "
+            "before is kept. Choose 'Analysis/Scheme = energy momentum', which "
+            "conserves energy, or a smaller 'Analysis/Time step'.";
+    return text.str();
   }
 
   PathAnalysis::Attempt

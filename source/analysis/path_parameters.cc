@@ -109,12 +109,15 @@ namespace Nacre
                   Patterns::Selection("automatic|always|never"));
     add_parameter("Scheme",
                   scheme_text_,
-                  "newmark: the trapezoidal rule; generalised alpha, with the "
-                  "spectral radius below; implicit midpoint; implicit euler, "
-                  "of first order, as graphics codes use.",
+                  "energy momentum: conserves energy, momentum and angular "
+                  "momentum with any step; newmark: the trapezoidal rule; "
+                  "generalised alpha, with the spectral radius below; implicit "
+                  "midpoint; implicit euler, of first order, as graphics codes "
+                  "use. All but the first may gain energy in large rotations.",
                   prm,
                   Patterns::Selection("newmark|generalised alpha|implicit "
-                                      "midpoint|implicit euler"));
+                                      "midpoint|implicit euler|energy "
+                                      "momentum"));
     add_parameter("Spectral radius",
                   spectral_radius,
                   "Of generalised alpha at high frequencies: 1 keeps them, 0 "

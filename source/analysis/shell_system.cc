@@ -60,10 +60,15 @@ namespace Nacre
   void
   ShellSystem::set_load_time(const double time)
   {
+    set_force_time(time);
+    boundary_conditions_.set_time(time, load_factor_(Point<3>()));
+  }
+
+  void
+  ShellSystem::set_force_time(const double time)
+  {
     load_factor_.set_time(time);
-    const double factor = load_factor_(Point<3>());
-    loads_.set_time(time, factor);
-    boundary_conditions_.set_time(time, factor);
+    loads_.set_time(time, load_factor_(Point<3>()));
   }
 
   ShellSystem::Vector

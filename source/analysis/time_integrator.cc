@@ -12,7 +12,8 @@ namespace Nacre
     static const std::vector<std::string> names = {"newmark",
                                                    "generalised alpha",
                                                    "implicit midpoint",
-                                                   "implicit euler"};
+                                                   "implicit euler",
+                                                   "energy momentum"};
     return names;
   }
 
@@ -23,11 +24,12 @@ namespace Nacre
     , damping_(damping)
   {
     if (scheme == TimeScheme::generalised_alpha ||
-        scheme == TimeScheme::implicit_midpoint)
+        scheme == TimeScheme::implicit_midpoint ||
+        scheme == TimeScheme::energy_momentum)
       {
         // Chung & Hulbert (1993), (17), (18), (25)
         const double r =
-          scheme == TimeScheme::implicit_midpoint ? 1. : spectral_radius;
+          scheme == TimeScheme::generalised_alpha ? spectral_radius : 1.;
         alpha_m_ = (2. * r - 1.) / (r + 1.);
         alpha_f_ = r / (r + 1.);
         gamma_   = 0.5 - alpha_m_ + alpha_f_;

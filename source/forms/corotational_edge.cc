@@ -46,20 +46,12 @@ namespace Nacre
     const Vector<double>                  &u,
     LocalTerms                            &terms)
   {
-    const unsigned int n_points = edge.n_points();
-    const unsigned int n_nodes  = edge.shapes(0).n_nodes();
+    const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
-      {
-        extract_edge_nodes(edge, s, u, edge_u_[s]);
-        if (terms.wants_tangent)
-          {
-            edge_shape_rows_[s].reinit(2 * n_points, n_nodes, true);
-            edge_derivative_rows_[s].reinit(2 * n_points,
-                                            spacedim * edge.n_dofs(),
-                                            true);
-          }
-      }
-    for (unsigned int q = 0; q < n_points; ++q)
+      extract_edge_nodes(edge, s, u, edge_u_[s]);
+    if (terms.wants_tangent)
+      reinit_edge_rows(edge);
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
         edge_point_.reinit(edge, q, section_, penalty, rotation[q], edge_u_);
         terms.energies.edge += edge_point_.energy();
@@ -67,9 +59,7 @@ namespace Nacre
           {
             force_.assign(n_nodes, Tensor<1, spacedim>());
             edge_point_.add_force(s, force_);
-            for (unsigned int a = 0; a < n_nodes; ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                terms.residual[edge.dof(s, a, c)] += force_[a][c];
+            add_edge_residual(edge, s, terms);
           }
         if (terms.wants_tangent)
           {
@@ -94,6 +84,95 @@ namespace Nacre
     const auto &side = edge_point_.side(0);
     return std::atan2(cross_product_3d(side.normal, side.deformed.t0).norm(),
                       side.normal * side.deformed.t0);
+  }
+
+  void
+  CorotationalKinematics::reinit_edge_rows(const ShellEdgeValues &edge)
+  {
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        edge_shape_rows_[s].reinit(2 * edge.n_points(),
+                                   edge.shapes(s).n_nodes(),
+                                   true);
+        edge_derivative_rows_[s].reinit(2 * edge.n_points(),
+                                        spacedim * edge.n_dofs(),
+                                        true);
+      }
+  }
+
+  void
+  CorotationalKinematics::add_edge_residual(const ShellEdgeValues &edge,
+                                            const unsigned int     s,
+                                            LocalTerms            &terms) const
+  {
+    for (unsigned int a = 0; a < force_.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[edge.dof(s, a, c)] += force_[a][c];
+  }
+
+  void
+  CorotationalKinematics::add_edge_step_terms(const ShellEdgeValues &edge,
+                                              const double           penalty,
+                                              const Vector<double>  &u_start,
+                                              const Vector<double>  &u_end,
+                                              LocalTerms            &terms)
+  {
+    const std::vector<PrescribedRotation> none(edge.n_points());
+    add_rotation_step_terms(edge, penalty, none, none, u_start, u_end, terms);
+  }
+
+  void
+  CorotationalKinematics::add_rotation_step_terms(
+    const ShellEdgeValues                 &edge,
+    const double                           penalty,
+    const std::vector<PrescribedRotation> &rotation_start,
+    const std::vector<PrescribedRotation> &rotation_end,
+    const Vector<double>                  &u_start,
+    const Vector<double>                  &u_end,
+    LocalTerms                            &terms)
+  {
+    const unsigned int n_nodes = edge.shapes(0).n_nodes();
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        extract_edge_nodes(edge, s, u_start, ends_edge_u_[0][s]);
+        extract_edge_nodes(edge, s, u_end, ends_edge_u_[1][s]);
+        edge_u_[s].resize(n_nodes);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          edge_u_[s][a] = 0.5 * (ends_edge_u_[0][s][a] + ends_edge_u_[1][s][a]);
+      }
+    if (terms.wants_tangent)
+      reinit_edge_rows(edge);
+    auto &[start, end] = ends_edge_point_;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        const std::array<PrescribedRotation, 2> rotation = {
+          {rotation_start[q], rotation_end[q]}};
+        start.reinit(edge, q, section_, penalty, rotation[0], ends_edge_u_[0]);
+        end.reinit(edge, q, section_, penalty, rotation[1], ends_edge_u_[1]);
+        edge_step_.reinit(edge, q, start, end, rotation[0], rotation[1]);
+        terms.rotation_work += edge_step_.rotation_work();
+        for (unsigned int s = 0; s < edge.n_sides(); ++s)
+          {
+            force_.assign(n_nodes, Tensor<1, spacedim>());
+            edge_step_.add_force(edge, q, s, force_);
+            add_edge_residual(edge, s, terms);
+          }
+        if (!terms.wants_tangent)
+          continue;
+        edge_point_.reinit(edge,
+                           q,
+                           section_,
+                           penalty,
+                           mean_rotation(rotation[0], rotation[1]),
+                           edge_u_);
+        edge_point_.take_mean_strains(start, end);
+        fill_edge_derivatives(edge, q);
+        for (unsigned int s = 0; s < edge.n_sides(); ++s)
+          fill_edge_rows(s, q);
+      }
+    if (terms.wants_tangent)
+      for (unsigned int s = 0; s < edge.n_sides(); ++s)
+        add_edge_tangent(edge, s, terms);
   }
 
   namespace

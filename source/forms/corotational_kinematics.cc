@@ -113,6 +113,32 @@ namespace Nacre
     const Vector<double>                              &u,
     LocalTerms                                        &terms)
   {
+    in_step_ = false;
+    extract_nodes(full_points_.values, u, u_);
+    add_cell(cell, terms);
+  }
+
+  void
+  CorotationalKinematics::add_cell_step_terms(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Vector<double>                              &u_start,
+    const Vector<double>                              &u_end,
+    LocalTerms                                        &terms)
+  {
+    in_step_ = true;
+    extract_nodes(full_points_.values, u_start, ends_u_[0]);
+    extract_nodes(full_points_.values, u_end, ends_u_[1]);
+    u_.resize(ends_u_[0].size());
+    for (unsigned int a = 0; a < u_.size(); ++a)
+      u_[a] = 0.5 * (ends_u_[0][a] + ends_u_[1][a]);
+    add_cell(cell, terms);
+  }
+
+  void
+  CorotationalKinematics::add_cell(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    LocalTerms                                        &terms)
+  {
     ShellCellValues &values = full_points_.values;
     values.reinit_frames(cell);
     const double share = reduced_points_.has_value() ?
@@ -120,7 +146,6 @@ namespace Nacre
                            1.;
     const bool   both  = share < 1.;
     full_points_.stiffness.reinit(values, section_, share);
-    extract_nodes(values, u, u_);
     force_.assign(u_.size(), Vector3());
 
     const unsigned int n_full    = full_points_.n_membrane_rows;
@@ -158,10 +183,17 @@ namespace Nacre
     points.membrane_stiffness =
       membrane_stiffness(points.values, points.stiffness.membrane);
     membrane_.reinit(points.values, points.membrane_stiffness, u_);
-    membrane_.add_force(points.values, force_);
-    terms.energies.membrane += membrane_.energy();
+    if (in_step_)
+      add_membrane_step_force(points);
+    else
+      {
+        membrane_.add_force(points.values, force_);
+        terms.energies.membrane += membrane_.energy();
+      }
     if (terms.wants_tangent)
       {
+        if (!in_step_)
+          set_sample_vectors(points);
         fill_sample_rows(points);
         fill_membrane_rows(points, first_row);
       }
@@ -172,24 +204,87 @@ namespace Nacre
                                             const unsigned int first_row,
                                             LocalTerms        &terms)
   {
-    bending_.reinit(points.values, points.stiffness.bending, u_);
-    bending_.add_force(points.values, force_);
-    terms.energies.bending += bending_.energy();
+    if (in_step_)
+      add_bending_step_force(points);
+    else
+      {
+        bending_.reinit(points.values, points.stiffness.bending, u_);
+        bending_.add_force(points.values, force_);
+        terms.energies.bending += bending_.energy();
+      }
     if (terms.wants_tangent)
       fill_bending_rows(points, first_row);
   }
 
   void
-  CorotationalKinematics::fill_sample_rows(const CellPoints &points)
+  CorotationalKinematics::add_membrane_step_force(const CellPoints &points)
+  {
+    const auto &values  = points.values;
+    const auto &samples = values.tying().samples();
+    for (unsigned int end = 0; end < 2; ++end)
+      ends_membrane_[end].reinit(values,
+                                 points.membrane_stiffness,
+                                 ends_u_[end]);
+    membrane_.take_mean_strains(values,
+                                points.membrane_stiffness,
+                                ends_membrane_[0],
+                                ends_membrane_[1]);
+    force_vectors_.resize(samples.size());
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        const auto &[k, direction] = samples[s];
+        const auto &frame          = values.tying_frame(k);
+        Voigt<>     strain;
+        for (const auto &end : ends_membrane_)
+          strain +=
+            0.5 *
+            CorotationalStrain::membrane(frame, end.deformed(k), end.polar(k));
+        force_vectors_[s] =
+          StepDifferences::stretch_vectors(frame,
+                                           membrane_.deformed(k),
+                                           strain,
+                                           direction);
+        const Vector3 g_1 = membrane_.sample_force(s) * force_vectors_[s][0];
+        const Vector3 g_2 = membrane_.sample_force(s) * force_vectors_[s][1];
+        for (unsigned int a = 0; a < force_.size(); ++a)
+          {
+            const auto &dN = values.tying_shapes().gradient(k, a);
+            force_[a] += dN[0] * g_1 + dN[1] * g_2;
+          }
+      }
+    strain_vectors_ = force_vectors_;
+  }
+
+  void
+  CorotationalKinematics::add_bending_step_force(const CellPoints &points)
+  {
+    const auto &values = points.values;
+    for (unsigned int end = 0; end < 2; ++end)
+      ends_bending_[end].reinit(values, points.stiffness.bending, ends_u_[end]);
+    bending_.take_means(ends_bending_[0], ends_bending_[1]);
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      for (unsigned int a = 0; a < force_.size(); ++a)
+        {
+          const Voigt<> strain = ShellStrain::bending_of_shape_function(
+            bending_.deformed(q),
+            values.shapes().gradient(q, a),
+            values.shapes().hessian(q, a));
+          force_[a] += (strain * bending_.moment(q)) * bending_.deformed(q).t0;
+        }
+  }
+
+  void
+  CorotationalKinematics::set_sample_vectors(const CellPoints &points)
   {
     const auto &samples = points.values.tying().samples();
-    const auto &shapes  = points.values.tying_shapes();
-    sample_rows_.reinit(samples.size(), points.values.n_dofs(), true);
+    force_vectors_.resize(samples.size());
+    strain_vectors_.resize(samples.size());
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
         const auto &[k, direction] = samples[s];
         const auto &polar          = membrane_.polar(k);
         auto        vectors        = sample_vectors(direction, polar.q_cov);
+        force_vectors_[s]          = vectors;
         if (is_consistent())
           {
             // dq_alpha = (t . omega) t x q_alpha + (...) t
@@ -204,10 +299,23 @@ namespace Nacre
             for (unsigned int g = 0; g < 2; ++g)
               vectors[g] += spin_strain * polar.spin[g];
           }
-        double *row = &sample_rows_(s, 0);
+        strain_vectors_[s] = vectors;
+      }
+  }
+
+  void
+  CorotationalKinematics::fill_sample_rows(const CellPoints &points)
+  {
+    const auto &samples = points.values.tying().samples();
+    const auto &shapes  = points.values.tying_shapes();
+    sample_rows_.reinit(samples.size(), points.values.n_dofs(), true);
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        const auto &vectors = strain_vectors_[s];
+        double     *row     = &sample_rows_(s, 0);
         for (unsigned int b = 0; b < u_.size(); ++b)
           {
-            const auto &dN = shapes.gradient(k, b);
+            const auto &dN = shapes.gradient(samples[s].point, b);
             for (unsigned int d = 0; d < spacedim; ++d)
               *row++ = dN[0] * vectors[0][d] + dN[1] * vectors[1][d];
           }
@@ -254,9 +362,8 @@ namespace Nacre
     // Forces change with the strains ...
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
-        const unsigned int k = samples[s].point;
-        const auto         vectors =
-          sample_vectors(samples[s].direction, membrane_.polar(k).q_cov);
+        const unsigned int k       = samples[s].point;
+        const auto        &vectors = force_vectors_[s];
         for (unsigned int alpha = 0; alpha < 2; ++alpha)
           {
             if (samples[s].direction[alpha] == 0. &&
@@ -317,7 +424,10 @@ namespace Nacre
             const auto &dN  = shapes.gradient(q, b);
             const auto &ddN = shapes.hessian(q, b);
             const auto  virtual_strain =
-              ShellStrain::bending_of_shape_function(values.frame(q), dN, ddN);
+              ShellStrain::bending_of_shape_function(in_step_ ? deformed :
+                                                                values.frame(q),
+                                                     dN,
+                                                     ddN);
             // d(rho_ab) = -(du,ab - Gamma^g_ab du,g) . t, Gamma the deformed
             const auto moment =
               H * (is_consistent() ?

@@ -4,6 +4,8 @@
 #include <nacre/forms/averaged_normal_kinematics.h>
 #include <nacre/forms/corotational_kinematics.h>
 
+#include <tuple>
+
 namespace Nacre
 {
   const std::vector<std::string> &
@@ -81,7 +83,79 @@ namespace Nacre
     if (wants_tangent)
       tangent.reinit(n_dofs, n_dofs);
     residual.reinit(n_dofs);
-    energies = Energies();
+    energies      = Energies();
+    rotation_work = 0.;
+  }
+
+  namespace
+  {
+    Vector<double>
+    mean(const Vector<double> &start, const Vector<double> &end)
+    {
+      Vector<double> result(start);
+      result.sadd(0.5, 0.5, end);
+      return result;
+    }
+  } // namespace
+
+  void
+  Kinematics::add_cell_step_terms(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Vector<double>                              &u_start,
+    const Vector<double>                              &u_end,
+    LocalTerms                                        &terms)
+  {
+    const Energies energies = terms.energies;
+    add_cell_terms(cell, mean(u_start, u_end), terms);
+    terms.energies = energies;
+  }
+
+  void
+  Kinematics::add_edge_step_terms(const ShellEdgeValues &edge,
+                                  const double           penalty,
+                                  const Vector<double>  &u_start,
+                                  const Vector<double>  &u_end,
+                                  LocalTerms            &terms)
+  {
+    const Energies energies = terms.energies;
+    add_edge_terms(edge, penalty, mean(u_start, u_end), terms);
+    terms.energies = energies;
+  }
+
+  void
+  Kinematics::add_rotation_step_terms(
+    const ShellEdgeValues                 &edge,
+    const double                           penalty,
+    const std::vector<PrescribedRotation> &rotation_start,
+    const std::vector<PrescribedRotation> &rotation_end,
+    const Vector<double>                  &u_start,
+    const Vector<double>                  &u_end,
+    LocalTerms                            &terms)
+  {
+    std::vector<PrescribedRotation> rotation;
+    for (unsigned int q = 0; q < rotation_start.size(); ++q)
+      rotation.push_back(mean_rotation(rotation_start[q], rotation_end[q]));
+    LocalTerms step;
+    step.wants_tangent = terms.wants_tangent;
+    step.reinit(u_start.size());
+    add_rotation_terms(edge, penalty, rotation, mean(u_start, u_end), step);
+    terms.residual += step.residual;
+    if (terms.wants_tangent)
+      terms.tangent.add(1., step.tangent);
+    // What the energy changes by and the forces don't do
+    LocalTerms start, end;
+    for (const auto &[ends_terms, ends_rotation, ends_u] :
+         {std::make_tuple(&start, &rotation_start, &u_start),
+          std::make_tuple(&end, &rotation_end, &u_end)})
+      {
+        ends_terms->wants_tangent = false;
+        ends_terms->reinit(u_start.size());
+        add_rotation_terms(edge, penalty, *ends_rotation, *ends_u, *ends_terms);
+      }
+    Vector<double> change(u_end);
+    change -= u_start;
+    terms.rotation_work +=
+      end.energies.total() - start.energies.total() - step.residual * change;
   }
 
   std::unique_ptr<Kinematics>

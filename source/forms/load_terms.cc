@@ -7,6 +7,27 @@
 
 namespace Nacre
 {
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** u,1 and u,2 at the point @p q; zero if @p u is empty. */
+    std::array<Vector3, 2>
+    displacement_gradient(const ShellCellValues        &values,
+                          const unsigned int            q,
+                          const dealii::Vector<double> &u)
+    {
+      std::array<Vector3, 2> du;
+      for (unsigned int a = 0; u.size() > 0 && a < values.shapes().n_nodes();
+           ++a)
+        for (unsigned int c = 0; c < spacedim; ++c)
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            du[alpha][c] +=
+              values.shapes().gradient(q, a)[alpha] * u[values.dof(a, c)];
+      return du;
+    }
+  } // namespace
+
   LoadTerms::LoadTerms(const Discretization &discretization,
                        const SectionLaw     &section,
                        const Loads          &loads)
@@ -29,12 +50,13 @@ namespace Nacre
   void
   LoadTerms::subtract_on_cell(const ShellCellValues        &values,
                               const dealii::Vector<double> &u,
+                              const dealii::Vector<double> &u_start,
                               LocalTerms                   &terms) const
   {
     if (!loads_.no_surface_load())
       subtract_surface_loads(values, terms.residual);
     if (loads_.pressure_follows())
-      subtract_following_pressure(values, u, terms);
+      subtract_following_pressure(values, u, u_start, terms);
   }
 
   void
@@ -59,20 +81,26 @@ namespace Nacre
   void
   LoadTerms::subtract_following_pressure(const ShellCellValues        &values,
                                          const dealii::Vector<double> &u,
+                                         const dealii::Vector<double> &u_start,
                                          LocalTerms &terms) const
   {
     const auto &shapes = values.shapes();
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
-        auto phi = values.frame(q).a_cov;
-        for (unsigned int a = 0; u.size() > 0 && a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              phi[alpha][c] +=
-                shapes.gradient(q, a)[alpha] * u[values.dof(a, c)];
+        const auto   du  = displacement_gradient(values, q, u);
+        const auto  &a   = values.frame(q).a_cov;
+        const auto   phi = std::array<Vector3, 2>{{a[0] + du[0], a[1] + du[1]}};
         const double p =
           loads_.pressure(values.point(q)) * values.JxW(q) / values.frame(q).j0;
-        const auto force = p * cross_product_3d(phi[0], phi[1]);
+        Vector3 force = p * cross_product_3d(phi[0], phi[1]);
+        if (u_start.size() > 0)
+          {
+            // The mean over phi + s Delta(phi), s from -1/2 to 1/2, and
+            // Delta(phi) = 2 (u - u_start)
+            const auto start = displacement_gradient(values, q, u_start);
+            force +=
+              p / 3. * cross_product_3d(du[0] - start[0], du[1] - start[1]);
+          }
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[values.dof(a, c)] -= shapes.value(q, a) * force[c];

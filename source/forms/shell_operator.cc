@@ -25,9 +25,16 @@ namespace Nacre
       , edge(other.edge)
     {}
 
+    /** Set both ends of a step of which u is the mean. */
+    void
+    set_ends(const StepStart                            &start,
+             const std::vector<types::global_dof_index> &dofs);
+
     std::unique_ptr<Kinematics> kinematics;
     ShellEdgeValues             edge;
     dealii::Vector<double>      u;
+    dealii::Vector<double>      u_start;
+    dealii::Vector<double>      u_end;
   };
 
   struct ShellOperator::FaceCopy
@@ -131,6 +138,16 @@ namespace Nacre
       return sum;
     }
   } // namespace
+
+  void
+  ShellOperator::ScratchData::set_ends(
+    const StepStart                            &start,
+    const std::vector<types::global_dof_index> &dofs)
+  {
+    extract(&start.u, dofs, u_start);
+    u_end = u;
+    u_end.sadd(2., -1., u_start);
+  }
 
   ShellOperator::ShellOperator(const Discretization        &discretization,
                                const SectionLaw            &section,
@@ -262,6 +279,8 @@ namespace Nacre
                       const Copier  &copier) const
   {
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+    const StepStart *const start =
+      inertia != nullptr ? inertia->start : nullptr;
 
     const auto cell_worker =
       [&](const Iterator &cell, ScratchData &scratch, CopyData &copy) {
@@ -280,17 +299,28 @@ namespace Nacre
       face.dofs      = scratch.edge.dof_indices();
       face.terms.reinit(face.dofs.size());
       extract(u, face.dofs, scratch.u);
-      scratch.kinematics->add_edge_terms(scratch.edge,
-                                         penalty_.interior(cell, neighbor),
-                                         scratch.u,
-                                         face.terms);
+      const double penalty = penalty_.interior(cell, neighbor);
+      if (start == nullptr)
+        scratch.kinematics->add_edge_terms(scratch.edge,
+                                           penalty,
+                                           scratch.u,
+                                           face.terms);
+      else
+        {
+          scratch.set_ends(*start, face.dofs);
+          scratch.kinematics->add_edge_step_terms(scratch.edge,
+                                                  penalty,
+                                                  scratch.u_start,
+                                                  scratch.u_end,
+                                                  face.terms);
+        }
       copy.take_block(face);
     };
     const auto boundary_worker = [&](const Iterator    &cell,
                                      const unsigned int f,
                                      ScratchData       &scratch,
                                      CopyData          &copy) {
-      this->boundary_worker(cell, f, u, scratch, copy);
+      this->boundary_worker(cell, f, u, start, scratch, copy);
     };
 
     CopyData copy;
@@ -326,9 +356,19 @@ namespace Nacre
     cell->get_dof_indices(copy.dofs);
     copy.terms.reinit(copy.dofs.size());
     extract(u, copy.dofs, scratch.u);
-    scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
+    if (inertia == nullptr || inertia->start == nullptr)
+      scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
+    else
+      {
+        scratch.set_ends(*inertia->start, copy.dofs);
+        scratch.kinematics->add_cell_step_terms(cell,
+                                                scratch.u_start,
+                                                scratch.u_end,
+                                                copy.terms);
+      }
     load_terms_.subtract_on_cell(scratch.kinematics->cell_values(),
                                  scratch.u,
+                                 scratch.u_start,
                                  copy.terms);
     if (inertia != nullptr)
       inertia->add(cell,
@@ -343,6 +383,7 @@ namespace Nacre
     const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
     const unsigned int                                     f,
     const Vector                                          *u,
+    const StepStart                                       *start,
     ScratchData                                           &scratch,
     CopyData                                              &copy) const
   {
@@ -358,7 +399,7 @@ namespace Nacre
     face.dofs      = scratch.edge.dof_indices();
     face.terms.reinit(face.dofs.size());
     extract(u, face.dofs, scratch.u);
-    if (rotates)
+    if (rotates && start == nullptr)
       scratch.kinematics->add_rotation_terms(
         scratch.edge,
         penalty_.boundary(cell),
@@ -368,64 +409,27 @@ namespace Nacre
                              scratch.edge),
         scratch.u,
         face.terms);
+    else if (rotates)
+      {
+        scratch.set_ends(*start, face.dofs);
+        scratch.kinematics->add_rotation_step_terms(
+          scratch.edge,
+          penalty_.boundary(cell),
+          start->rotations.at({cell->active_cell_index(), f}),
+          prescribed_rotations(cell,
+                               f,
+                               *conditions->second.rotation,
+                               scratch.edge),
+          scratch.u_start,
+          scratch.u_end,
+          face.terms);
+      }
     load_terms_.subtract_on_edge(id,
                                  scratch.edge,
                                  scratch.u,
                                  *scratch.kinematics,
                                  face.terms);
     copy.take_block(face);
-  }
-
-  void
-  ShellOperator::add_loads(const Vector &u, Vector &result) const
-  {
-    const auto                           kinematics = kinematics_->clone();
-    ShellEdgeValues                      edge(discretization_);
-    dealii::Vector<double>               local_u;
-    LocalTerms                           terms;
-    std::vector<types::global_dof_index> dofs(
-      discretization_.node_dofs().size());
-    terms.wants_tangent = false;
-    const auto add      = [&](const auto &indices) {
-      terms.residual *= -1.;
-      result.add(indices,
-                 std::vector<double>(terms.residual.begin(),
-                                     terms.residual.end()));
-    };
-    run_on_all_ranks(discretization_.communicator(), [&]() {
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            extract(&u, dofs, local_u);
-            terms.reinit(dofs.size());
-            kinematics->add_cell_terms(cell, local_u, terms);
-            terms.reinit(dofs.size());
-            load_terms_.subtract_on_cell(kinematics->cell_values(),
-                                         local_u,
-                                         terms);
-            add(dofs);
-            for (const auto f : cell->face_indices())
-              if (cell->at_boundary(f) &&
-                  load_terms_.act_on(cell->face(f)->boundary_id()))
-                {
-                  edge.reinit(cell, f);
-                  extract(&u, edge.dof_indices(), local_u);
-                  terms.reinit(edge.n_dofs());
-                  load_terms_.subtract_on_edge(cell->face(f)->boundary_id(),
-                                               edge,
-                                               local_u,
-                                               *kinematics,
-                                               terms);
-                  add(edge.dof_indices());
-                }
-          }
-    });
-    result.compress(VectorOperation::add);
-    AffineConstraints<double> none;
-    none.close();
-    load_terms_.add_point_forces(none, 1., result);
   }
 
   Tensor<1, spacedim>

@@ -202,6 +202,15 @@ namespace Nacre
       return shell.energies.total() + kinetic_energy(shell);
     }
 
+    template <typename Function>
+    Evaluate
+    of_balance(const Function &part)
+    {
+      return [part](const SolvedShell &shell) {
+        return std::invoke(part, shell.balance);
+      };
+    }
+
     /**
      * The components c of the momentum, sum of M v over the nodes, or of its
      * moment about the origin, sum of (X + u) x M v.
@@ -261,6 +270,12 @@ namespace Nacre
         {"edge energy", of_energies(&Energies::edge), false},
         {"kinetic energy", kinetic_energy, false},
         {"total energy", total_energy, false},
+        {"external work", of_balance(&EnergyBalance::external_work), false},
+        {"work of prescribed motion",
+         of_balance(&EnergyBalance::prescribed_work),
+         false},
+        {"dissipation", of_balance(&EnergyBalance::dissipation), false},
+        {"energy balance", of_balance(&EnergyBalance::gain), false},
         {"momentum x", momentum(0, false), false},
         {"momentum y", momentum(1, false), false},
         {"momentum z", momentum(2, false), false},

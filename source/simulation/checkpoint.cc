@@ -46,7 +46,10 @@ namespace Nacre
       PathState &s = data.state;
       archive &s.step &s.time &s.next_step &s.n_good_steps &s.load_factor &s
         .iterations &s.residual &s.n_negative_pivots;
-      archive                   &data.written_fields;
+      EnergyBalance             &b = s.balance;
+      archive &b.is_kept &b.kinetic &b.strain &b.initial &b.external_work &b
+        .prescribed_work &b.dissipation &b.largest;
+      archive                           &data.written_fields;
     }
   } // namespace
 

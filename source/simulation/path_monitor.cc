@@ -178,6 +178,20 @@ namespace Nacre
     });
   }
 
+  namespace
+  {
+    /** Energies now, what came in and went out, and what can't be. */
+    void
+    print_balance(const EnergyBalance &balance, std::ostream &line)
+    {
+      line << std::setprecision(3) << ", energy: kinetic " << balance.kinetic
+           << ", strain " << balance.strain << ", work "
+           << balance.external_work + balance.prescribed_work << ", damped "
+           << balance.dissipation << ", gain " << std::setprecision(1)
+           << balance.relative_gain();
+    }
+  } // namespace
+
   void
   PathMonitor::print_line(const PathState           &state,
                           const std::vector<double> &values)
@@ -190,6 +204,8 @@ namespace Nacre
     if (state.n_negative_pivots > 0)
       line << ", unstable (" << state.n_negative_pivots << " negative pivot"
            << (state.n_negative_pivots > 1 ? "s)" : ")");
+    if (state.balance.is_kept)
+      print_balance(state.balance, line);
     line << std::setprecision(6);
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];

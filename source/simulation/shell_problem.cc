@@ -354,6 +354,7 @@ namespace Nacre
       state,
       [&](const PathState &step) {
         take_state(step);
+        warn_of_energy(step, log);
         observer(step, *solution_);
       },
       [&](const std::string &text) { log.progress() << text << std::endl; });
@@ -365,6 +366,22 @@ namespace Nacre
       Utilities::MPI::sum(system_->assembly_seconds(), communicator_);
     times_.solve = timer.lap() - times_.assembly;
     return failure;
+  }
+
+  void
+  ShellProblem::warn_of_energy(const PathState &state, Log &log)
+  {
+    const double gain = state.balance.relative_gain();
+    if (gain <= 0.01 || has_warned_of_energy_)
+      return;
+    has_warned_of_energy_ = true;
+    std::ostringstream text;
+    text << std::setprecision(2) << "Analysis/Scheme: at t = " << state.time
+         << " the motion has gained " << 100. * gain
+         << " % of its largest energy that nothing has put in; 10 % end the "
+            "run. 'energy momentum' conserves energy, a smaller 'Time step' "
+            "helps the other schemes.";
+    log.warning(text.str());
   }
 
   void
@@ -400,7 +417,8 @@ namespace Nacre
                                                 residual_,
                                                 energies,
                                                 dynamic ? mass : nullptr,
-                                                &velocity_});
+                                                &velocity_,
+                                                state.balance});
   }
 
   void

@@ -64,7 +64,8 @@ main(int argc, char **argv)
          {TimeScheme::newmark, 2.},
          {TimeScheme::generalised_alpha, 2.},
          {TimeScheme::implicit_midpoint, 2.},
-         {TimeScheme::implicit_euler, 1.}})
+         {TimeScheme::implicit_euler, 1.},
+         {TimeScheme::energy_momentum, 2.}})
     for (const double damping : {0., 0.3})
       {
         const auto  &name = time_scheme_names()[static_cast<int>(scheme)];

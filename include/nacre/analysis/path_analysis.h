@@ -4,6 +4,7 @@
 #ifndef nacre_analysis_path_analysis_h
 #define nacre_analysis_path_analysis_h
 
+#include <nacre/analysis/energy_ledger.h>
 #include <nacre/analysis/path_parameters.h>
 #include <nacre/analysis/shell_system.h>
 
@@ -23,6 +24,8 @@ namespace Nacre
     /** Good steps since the last change of size. */
     unsigned int n_good_steps = 0;
     MotionState  motion;
+    /** Of a dynamic path. */
+    EnergyBalance balance;
 
     /** @name The last step */
     //@{
@@ -80,6 +83,7 @@ namespace Nacre
     {
       NewtonSolver::Result result;
       MotionState          motion;
+      EnergyBalance        balance = {};
     };
 
     /** try_step() as the parameters say: with a line search, without, both. */
@@ -103,6 +107,10 @@ namespace Nacre
     Attempt
     dynamic_step(const PathState &state, const double dt, const bool search);
 
+    /** Why a dynamic path must not go on with this balance; or "". */
+    std::string
+    find_energy_gain(const EnergyBalance &balance) const;
+
     /** Dynamic relaxation from the last good state. */
     Attempt
     relax(const PathState &state, const double dt);
@@ -114,6 +122,8 @@ namespace Nacre
     ShellSystem             &system_;
     const TimeIntegrator     integrator_;
     std::optional<MassTerms> mass_;
+    /** In dynamics only. */
+    std::optional<EnergyLedger> ledger_;
   };
 } // namespace Nacre
 

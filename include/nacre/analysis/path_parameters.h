@@ -72,7 +72,7 @@ namespace Nacre
     /** Factorise in the first iteration of a step only. */
     bool keeps_tangent = false;
 
-    TimeScheme       scheme          = TimeScheme::generalised_alpha;
+    TimeScheme       scheme          = TimeScheme::energy_momentum;
     double           spectral_radius = 0.8;
     double           mass_damping    = 0.;
     VectorExpression initial_displacement;
@@ -97,7 +97,7 @@ namespace Nacre
     std::string output_times_text_         = "";
     std::string line_search_text_          = "automatic";
     std::string tangent_updates_text_      = "every iteration";
-    std::string scheme_text_               = "generalised alpha";
+    std::string scheme_text_               = "energy momentum";
     std::string initial_displacement_text_ = "0, 0, 0";
     std::string initial_velocity_text_     = "0, 0, 0";
   };

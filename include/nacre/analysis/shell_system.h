@@ -45,6 +45,17 @@ namespace Nacre
     void
     set_load_time(const double time);
 
+    /** Take the loads at @p time instead. */
+    void
+    set_force_time(const double time);
+
+    /** The start of a step at @p u with the prescribed rotations set. */
+    StepStart
+    step_start(const Vector &u) const
+    {
+      return {with_ghosts(u), shell_operator_.prescribed_rotations()};
+    }
+
     /**
      * From now on solve with a new tangent always, or, if @p is_kept, with the
      * next one for as long as prescribed displacements don't change.

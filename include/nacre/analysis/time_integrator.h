@@ -29,7 +29,9 @@ namespace Nacre
     /** Generalised-alpha of spectral radius 1. */
     implicit_midpoint,
     /** First order, dissipative. */
-    implicit_euler
+    implicit_euler,
+    /** The midpoint rule with forces that conserve energy and momentum. */
+    energy_momentum
   };
 
   /** Names of TimeScheme in its order. */
@@ -46,6 +48,9 @@ namespace Nacre
    * with Newmark's relations between u, v, a at both ends, or with those of
    * the implicit Euler method v_{n+1} = (u_{n+1} - u_n) / dt,
    * a_{n+1} = (v_{n+1} - v_n) / dt. The unknown is u_f.
+   *
+   * The energy-momentum scheme is the midpoint rule with other forces than
+   * F(u_f), Kinematics::add_cell_step_terms() and its like.
    */
   class TimeIntegrator
   {

@@ -7,6 +7,7 @@
 #include <nacre/base/mutation.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/corotational_strain.h>
+#include <nacre/mechanics/step_differences.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -96,6 +97,28 @@ namespace Nacre
               samples[s].direction[v] * strain[samples[s].point][v];
         }
       set_forces(tying, stiffness);
+    }
+
+    /**
+     * Take the means of the strains of both ends of a step instead, and the
+     * resultants with them; frames and rotations stay.
+     */
+    void
+    take_mean_strains(const ShellCellValues              &values,
+                      const FullMatrix<double>           &stiffness,
+                      const CorotationalMembrane<Number> &start,
+                      const CorotationalMembrane<Number> &end)
+    {
+      for (unsigned int s = 0; s < strains_.size(); ++s)
+        strains_[s] = 0.5 * (start.strains_[s] + end.strains_[s]);
+      set_forces(values.tying(), stiffness);
+    }
+
+    /** Work conjugate of the strain of the sample @p s. */
+    const Number &
+    sample_force(const unsigned int s) const
+    {
+      return forces_[s];
     }
 
     /** 1/2 e . M . e (force times length). */
@@ -205,6 +228,26 @@ namespace Nacre
           strains_[q] =
             CorotationalStrain::bending(values.frame(q), deformed_[q]);
           moments_[q] = stiffness[q] * strains_[q];
+        }
+    }
+
+    /**
+     * Take the means over a step from @p start to @p end: StepDifferences'
+     * frames, strains and moments.
+     */
+    void
+    take_means(const CorotationalBending<Number> &start,
+               const CorotationalBending<Number> &end)
+    {
+      deformed_.resize(start.deformed_.size());
+      strains_.resize(deformed_.size());
+      moments_.resize(deformed_.size());
+      for (unsigned int q = 0; q < deformed_.size(); ++q)
+        {
+          deformed_[q] =
+            StepDifferences::mean_frame(start.deformed_[q], end.deformed_[q]);
+          strains_[q] = 0.5 * (start.strains_[q] + end.strains_[q]);
+          moments_[q] = 0.5 * (start.moments_[q] + end.moments_[q]);
         }
     }
 

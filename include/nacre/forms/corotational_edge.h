@@ -10,9 +10,27 @@
 #include <nacre/forms/kinematics.h>
 
 #include <complex>
+#include <utility>
 
 namespace Nacre
 {
+  /**
+   * The conormal @p nu and the normal @p t0 of an edge after the prescribed
+   * @p rotation: by its angle about the edge, which moves the conormal towards
+   * the normal, then with the turn of the edge.
+   */
+  inline std::pair<Tensor<1, spacedim>, Tensor<1, spacedim>>
+  prescribed_frame(const Tensor<1, spacedim> &nu,
+                   const Tensor<1, spacedim> &t0,
+                   const PrescribedRotation  &rotation)
+  {
+    const double sine =
+      NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation.angle);
+    const double cosine = std::cos(rotation.angle);
+    return {rotation.turn * (cosine * nu + sine * t0),
+            rotation.turn * (cosine * t0 - sine * nu)};
+  }
+
   /**
    * The hinge form in the frame that turns with the edge, at one point:
    * f = R K^e (R^T x - X0), (48) with the linear form's K^e.
@@ -132,6 +150,44 @@ namespace Nacre
       return stretch_;
     }
 
+    /** t and b = t x d of the deformed edge. */
+    const Vector &
+    normal() const
+    {
+      return t_;
+    }
+
+    const Vector &
+    binormal() const
+    {
+      return b_;
+    }
+
+    /** t_e and b0 of the undeformed edge. */
+    const Tensor<1, spacedim> &
+    initial_normal() const
+    {
+      return t_e_;
+    }
+
+    const Tensor<1, spacedim> &
+    initial_binormal() const
+    {
+      return b0_;
+    }
+
+    /**
+     * Take the means of [[theta]] and {m_nn} of both ends of a step instead,
+     * and the forces with them; the frames stay.
+     */
+    void
+    take_mean_strains(const CorotationalEdgePoint<Number> &start,
+                      const CorotationalEdgePoint<Number> &end)
+    {
+      jump_ = 0.5 * (start.jump_ + end.jump_);
+      mean_ = 0.5 * (start.mean_ + end.mean_);
+    }
+
     /** Undeformed d0. */
     const Tensor<1, spacedim> &
     initial_tangent() const
@@ -247,15 +303,10 @@ namespace Nacre
     rotate_as_prescribed(const Tensor<1, spacedim> &t0,
                          const PrescribedRotation  &rotation)
     {
-      const double sine =
-        NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation.angle);
-      const double cosine = std::cos(rotation.angle);
-
-      b0_          = nu_;
-      t_e_         = t0;
-      const auto d = rotation.turn * d0_;
-      const auto b = rotation.turn * (cosine * nu_ + sine * t0);
-      const auto t = rotation.turn * (cosine * t0 - sine * nu_);
+      const auto [p_b, p_t] = prescribed_frame(nu_, t0, rotation);
+      b0_                   = nu_;
+      t_e_                  = t0;
+      const auto d          = rotation.turn * d0_;
       // Exactly opposite directions leave the axis open. An edge that has
       // turned by 180 degrees in a symmetry plane did so about its conormal.
       using std::real;
@@ -264,10 +315,10 @@ namespace Nacre
       const auto turned      = [&](const Tensor<1, spacedim> &v) {
         return is_opposite ? 2. * (axis * v) * axis - v : v;
       };
-      b_             = EdgeRotation::smallest<Number>(turned(d), d_, turned(b));
-      t_             = EdgeRotation::smallest<Number>(turned(d), d_, turned(t));
-      tangent_spin_  = EdgeRotation::smallest_spin(turned(d), d_);
-      sides_[0].spin = {{Number(0.), Number(0.)}};
+      b_ = EdgeRotation::smallest<Number>(turned(d), d_, turned(p_b));
+      t_ = EdgeRotation::smallest<Number>(turned(d), d_, turned(p_t));
+      tangent_spin_    = EdgeRotation::smallest_spin(turned(d), d_);
+      sides_[0].spin   = {{Number(0.), Number(0.)}};
       sides_[0].normal = t_;
     }
 

@@ -7,6 +7,7 @@
 #include <nacre/forms/cell_stiffness.h>
 #include <nacre/forms/corotational_cell.h>
 #include <nacre/forms/corotational_edge.h>
+#include <nacre/forms/corotational_edge_step.h>
 #include <nacre/forms/kinematics.h>
 
 #include <optional>
@@ -50,6 +51,13 @@ namespace Nacre
     }
 
     void
+    reinit_cell_values(
+      const Triangulation<dim, spacedim>::cell_iterator &cell) override
+    {
+      full_points_.values.reinit_frames(cell);
+    }
+
+    void
     add_edge_terms(const ShellEdgeValues &edge,
                    const double           penalty,
                    const Vector<double>  &u,
@@ -74,6 +82,35 @@ namespace Nacre
                      const Vector<double>      &u,
                      LocalTerms                &terms) override;
 
+    /**
+     * Forces B*^T s, StepDifferences. Their tangent is B*^T D B* and the
+     * stiffness of the mean stresses s at the mean positions, which is
+     * symmetric but for that stiffness; the derivative has B at the end of the
+     * step in place of the second B*.
+     */
+    void
+    add_cell_step_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                        const Vector<double> &u_start,
+                        const Vector<double> &u_end,
+                        LocalTerms           &terms) override;
+
+    void
+    add_edge_step_terms(const ShellEdgeValues &edge,
+                        const double           penalty,
+                        const Vector<double>  &u_start,
+                        const Vector<double>  &u_end,
+                        LocalTerms            &terms) override;
+
+    void
+    add_rotation_step_terms(
+      const ShellEdgeValues                 &edge,
+      const double                           penalty,
+      const std::vector<PrescribedRotation> &rotation_start,
+      const std::vector<PrescribedRotation> &rotation_end,
+      const Vector<double>                  &u_start,
+      const Vector<double>                  &u_end,
+      LocalTerms                            &terms) override;
+
   private:
     /** The points of one rule and the rows of the tangent that they need. */
     struct CellPoints
@@ -94,6 +131,11 @@ namespace Nacre
       unsigned int              n_membrane_rows = 0;
     };
 
+    /** The terms at u_, or, if in_step_, of the step of which u_ is the mean. */
+    void
+    add_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
+             LocalTerms                                        &terms);
+
     /** Residual and energy of the membrane strain, and rows of the tangent. */
     void
     add_membrane_terms(CellPoints        &points,
@@ -104,6 +146,21 @@ namespace Nacre
     add_bending_terms(CellPoints        &points,
                       const unsigned int first_row,
                       LocalTerms        &terms);
+
+    /** membrane_ and force_ of a step, and both vectors of the samples. */
+    void
+    add_membrane_step_force(const CellPoints &points);
+
+    /** bending_ and force_ of a step. */
+    void
+    add_bending_step_force(const CellPoints &points);
+
+    /**
+     * Set force_vectors_ and strain_vectors_: those of which v,1 and v,2 make
+     * the virtual strain of a sample and the strain's derivative.
+     */
+    void
+    set_sample_vectors(const CellPoints &points);
 
     /** Set sample_rows_: derivative of each sample's strain. */
     void
@@ -127,6 +184,16 @@ namespace Nacre
     void
     fill_edge_rows(const unsigned int s, const unsigned int q);
 
+    /** Room for the rows of an edge's tangent. */
+    void
+    reinit_edge_rows(const ShellEdgeValues &edge);
+
+    /** Add force_ to the residual of the side @p s. */
+    void
+    add_edge_residual(const ShellEdgeValues &edge,
+                      const unsigned int     s,
+                      LocalTerms            &terms) const;
+
     void
     add_edge_tangent(const ShellEdgeValues &edge,
                      const unsigned int     side,
@@ -147,10 +214,20 @@ namespace Nacre
     /** p x p points, for reduced integration only. */
     std::optional<CellPoints> reduced_points_;
 
-    CorotationalMembrane<double> membrane_;
-    CorotationalBending<double>  bending_;
-    NodeVectors<double>          u_;
-    NodeVectors<double>          force_;
+    CorotationalMembrane<double>                    membrane_;
+    CorotationalBending<double>                     bending_;
+    NodeVectors<double>                             u_;
+    NodeVectors<double>                             force_;
+    std::vector<std::array<Tensor<1, spacedim>, 2>> force_vectors_;
+    std::vector<std::array<Tensor<1, spacedim>, 2>> strain_vectors_;
+
+    /** @name Ends of a step */
+    //@{
+    bool                                        in_step_ = false;
+    std::array<NodeVectors<double>, 2>          ends_u_;
+    std::array<CorotationalMembrane<double>, 2> ends_membrane_;
+    std::array<CorotationalBending<double>, 2>  ends_bending_;
+    //@}
     /** [sample][3 b + d]: derivatives of the strains and of their forces. */
     FullMatrix<double> sample_rows_;
     FullMatrix<double> force_rows_;
@@ -162,6 +239,10 @@ namespace Nacre
 
     CorotationalEdgePoint<double>      edge_point_;
     std::array<NodeVectors<double>, 2> edge_u_;
+    /** [end of the step]. */
+    std::array<CorotationalEdgePoint<double>, 2>      ends_edge_point_;
+    std::array<std::array<NodeVectors<double>, 2>, 2> ends_edge_u_;
+    CorotationalEdgeStep                              edge_step_;
     /** Derivatives [c n_dofs + j] of the edge's rotation vector. */
     std::vector<double> omega_;
     /** Derivatives of [[theta]] and {m_nn}. */

@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/shell_values.h>
 #include <nacre/forms/kinematics_options.h>
+#include <nacre/forms/prescribed_rotation.h>
 #include <nacre/mechanics/section_law.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -56,24 +57,15 @@ namespace Nacre
     /** Internal forces at the current displacement. */
     Vector<double> residual;
     Energies       energies;
+    /**
+     * Work of prescribed rotations in a step (force times length), of
+     * add_rotation_step_terms() only.
+     */
+    double rotation_work = 0.;
 
     /** Set to zero for @p n_dofs dofs. */
     void
     reinit(const unsigned int n_dofs);
-  };
-
-  /** The rotation prescribed at a point of a boundary edge. */
-  struct PrescribedRotation
-  {
-    /** @param angle theta_bar (rad) about the edge */
-    PrescribedRotation(const double angle = 0.)
-      : angle(angle)
-      , turn(unit_symmetric_tensor<spacedim>())
-    {}
-
-    double angle;
-    /** How the prescribed displacements have turned the edge: EdgeTurns. */
-    Tensor<2, spacedim> turn;
   };
 
   /**
@@ -103,6 +95,11 @@ namespace Nacre
     /** Frames at the full rule of the last cell. */
     virtual const ShellCellValues &
     cell_values() const = 0;
+
+    /** Make @p cell the last cell, without any terms. */
+    virtual void
+    reinit_cell_values(
+      const Triangulation<dim, spacedim>::cell_iterator &cell) = 0;
 
     /**
      * Terms of an interior edge, at the displacement @p u of the edge's dofs.
@@ -149,6 +146,42 @@ namespace Nacre
                      const std::vector<double> &moment,
                      const Vector<double>      &u,
                      LocalTerms                &terms) = 0;
+
+    /**
+     * @name Energy-momentum forces of a step from @p u_start to @p u_end
+     *
+     * Mean forces whose work on u_end - u_start is the change of the strain
+     * energy, less rotation_work, and which have no moment at the mean
+     * positions. The tangent is, nearly, their derivative with respect to the
+     * mean displacement; energies are not set. For energies that are quadratic
+     * in the displacement these are the forces at the mean displacement, as
+     * here.
+     */
+    //@{
+    virtual void
+    add_cell_step_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                        const Vector<double> &u_start,
+                        const Vector<double> &u_end,
+                        LocalTerms           &terms);
+
+    virtual void
+    add_edge_step_terms(const ShellEdgeValues &edge,
+                        const double           penalty,
+                        const Vector<double>  &u_start,
+                        const Vector<double>  &u_end,
+                        LocalTerms            &terms);
+
+    /** Rotations at both ends. */
+    virtual void
+    add_rotation_step_terms(
+      const ShellEdgeValues                 &edge,
+      const double                           penalty,
+      const std::vector<PrescribedRotation> &rotation_start,
+      const std::vector<PrescribedRotation> &rotation_end,
+      const Vector<double>                  &u_start,
+      const Vector<double>                  &u_end,
+      LocalTerms                            &terms);
+    //@}
   };
 
   /** The alternative that @p options name. */

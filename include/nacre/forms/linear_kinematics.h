@@ -41,6 +41,13 @@ namespace Nacre
     }
 
     void
+    reinit_cell_values(
+      const Triangulation<dim, spacedim>::cell_iterator &cell) override
+    {
+      full_values_.reinit_frames(cell);
+    }
+
+    void
     add_edge_terms(const ShellEdgeValues &edge,
                    const double           penalty,
                    const Vector<double>  &u,

@@ -33,10 +33,12 @@ namespace Nacre
     /**
      * Subtract force per area, weight and pressure at the displacement @p u of
      * the cell's dofs from the residual.
+     * @param u_start the start of a step of which u is the mean, or empty
      */
     void
     subtract_on_cell(const ShellCellValues        &values,
                      const dealii::Vector<double> &u,
+                     const dealii::Vector<double> &u_start,
                      LocalTerms                   &terms) const;
 
     /** Subtract forces and moments per length of a boundary edge. */
@@ -60,11 +62,15 @@ namespace Nacre
 
     /**
      * Pressure along the deformed normal on the deformed area: the force per
-     * reference area is p phi,1 x phi,2; with its derivative.
+     * reference area is p phi,1 x phi,2; with its derivative. If @p u_start
+     * isn't empty, the mean over the straight way of a step from there, of
+     * which @p u is the mean: its work is the pressure times the volume that
+     * the surface sweeps.
      */
     void
     subtract_following_pressure(const ShellCellValues        &values,
                                 const dealii::Vector<double> &u,
+                                const dealii::Vector<double> &u_start,
                                 LocalTerms                   &terms) const;
 
     const Discretization     &discretization_;

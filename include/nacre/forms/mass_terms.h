@@ -76,6 +76,8 @@ namespace Nacre
     double                          total_ = 0.;
   };
 
+  struct StepStart;
+
   /**
    * Inertial forces that a time integrator adds to the residual: M w, with the
    * derivative of w with respect to the displacement at which the internal
@@ -88,6 +90,11 @@ namespace Nacre
     const TrilinosWrappers::MPI::Vector &w;
     /** dw/du (1/time^2). */
     double factor;
+    /**
+     * If given, the displacement is the mean of a step that begins there, and
+     * the internal forces are the energy-momentum ones of the step.
+     */
+    const StepStart *start = nullptr;
 
     /** Add M w to the residual and, if it has rows, factor M to the tangent. */
     void

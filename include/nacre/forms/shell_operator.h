@@ -9,6 +9,7 @@
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/load_terms.h>
 #include <nacre/forms/mass_terms.h>
+#include <nacre/forms/step_start.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -88,9 +89,24 @@ namespace Nacre
     Energies
     energies(const Vector &u) const;
 
-    /** Add the loads (force) at the ghosted displacement @p u; collective. */
+    /**
+     * The nodes' forces (force) of all loads at the ghosted displacement @p u;
+     * collective.
+     * @param u_start ghosted start of a step of which u is the mean, or null
+     */
     void
-    add_loads(const Vector &u, Vector &result) const;
+    loads(const Vector &u, const Vector *u_start, Vector &result) const;
+
+    /** The prescribed rotations of this rank's edges; collective. */
+    PrescribedRotations
+    prescribed_rotations() const;
+
+    /**
+     * Work (force times length) of the supports that prescribe rotations, from
+     * @p start to the ghosted @p u_end and the rotations now; collective.
+     */
+    double
+    rotation_work(const StepStart &start, const Vector &u_end) const;
 
     /**
      * The virtual work of the rotation conditions of the edge @p id on a
@@ -159,8 +175,9 @@ namespace Nacre
     boundary_worker(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
                     const unsigned int                                     face,
                     const Vector                                          *u,
-                    ScratchData &scratch,
-                    CopyData    &copy) const;
+                    const StepStart *start,
+                    ScratchData     &scratch,
+                    CopyData        &copy) const;
 
     /** Rotations prescribed at the points of @p edge, the one of a cell. */
     std::vector<PrescribedRotation>

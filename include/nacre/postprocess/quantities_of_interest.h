@@ -5,6 +5,7 @@
 #define nacre_postprocess_quantities_of_interest_h
 
 #include <nacre/base/expression.h>
+#include <nacre/forms/energy_balance.h>
 #include <nacre/forms/kinematics.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -43,6 +44,7 @@ namespace Nacre
     //@{
     const MassTerms                     *mass     = nullptr;
     const TrilinosWrappers::MPI::Vector *velocity = nullptr;
+    EnergyBalance                        balance  = {};
     //@}
   };
 

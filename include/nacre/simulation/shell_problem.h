@@ -224,6 +224,10 @@ namespace Nacre
     void
     take_state(const PathState &state);
 
+    /** Warn, once, if a motion has gained more than 1 % of its energy. */
+    void
+    warn_of_energy(const PathState &state, Log &log);
+
     void
     warn_of_penalty(Log &log) const;
 
@@ -294,6 +298,7 @@ namespace Nacre
     TrilinosWrappers::MPI::Vector   dual_;
     TrilinosWrappers::MPI::Vector   residual_;
     TrilinosWrappers::MPI::Vector   velocity_;
+    bool                            has_warned_of_energy_ = false;
 
     /** The linear system of solve(), kept for dual solutions. */
     std::unique_ptr<DisplacementConditions> conditions_;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_analysis_energy_ledger_h
+#define nacre_analysis_energy_ledger_h
+
+#include <nacre/analysis/shell_system.h>
+#include <nacre/analysis/time_integrator.h>
+#include <nacre/forms/energy_balance.h>
+
+namespace Nacre
+{
+  /**
+   * Keeps the energy balance of a motion, step by step and for any scheme.
+   * With Delta = end - start of a step and means at the middle:
+   *
+   * external work        f(t_m, u_m) . Delta u, exact for constant dead loads
+   *                      and following pressures
+   * prescribed motion    reactions of the scheme's equation times the change
+   *                      of the prescribed displacements, and the moments of
+   *                      the supports times that of the prescribed rotations
+   * dissipation          c M Delta u . Delta u / Delta t, of mass damping
+   */
+  class EnergyLedger
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+
+    /** A step that has been taken. */
+    struct Step
+    {
+      double             start_time;
+      double             dt;
+      const MotionState &start;
+      const MotionState &end;
+      /** The start's displacement and prescribed rotations. */
+      const StepStart &rotations;
+      /** What the scheme's equation has been solved with. */
+      const Vector  &u_f;
+      const Inertia &inertia;
+    };
+
+    /** @param damping c (1/time) */
+    EnergyLedger(ShellSystem     &system,
+                 const MassTerms &mass,
+                 const double     damping);
+
+    /**
+     * The balance of the state at the start; collective.
+     * @param dt size of steps; what moves by less than 1e-10 of the shell's
+     *   size in one of them counts as round-off
+     */
+    EnergyBalance
+    start(const MotionState &motion, const double dt) const;
+
+    /**
+     * The balance after a @p step, with the loads and conditions that the step
+     * was taken with; leaves those of the middle of the step. Collective.
+     */
+    EnergyBalance
+    after_step(const EnergyBalance &before, const Step &step) const;
+
+  private:
+    double
+    kinetic_energy(const Vector &v) const;
+
+    /** Work of the forces at prescribed displacements. */
+    double
+    reaction_work(const Step &step) const;
+
+    ShellSystem     &system_;
+    const MassTerms &mass_;
+    const double     damping_;
+  };
+} // namespace Nacre
+
+#endif

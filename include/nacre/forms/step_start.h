@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_step_start_h
+#define nacre_forms_step_start_h
+
+#include <nacre/forms/prescribed_rotation.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace Nacre
+{
+  /** Prescribed rotations at an edge's points, by cell index and face. */
+  using PrescribedRotations = std::map<std::pair<unsigned int, unsigned int>,
+                                       std::vector<PrescribedRotation>>;
+
+  /**
+   * Where a step begins whose internal forces are the energy-momentum ones,
+   * Kinematics::add_cell_step_terms() and its like.
+   */
+  struct StepStart
+  {
+    /** Displacement (length), ghosted. */
+    dealii::TrilinosWrappers::MPI::Vector u;
+    PrescribedRotations                   rotations;
+  };
+} // namespace Nacre
+
+#endif

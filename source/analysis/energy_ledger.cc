@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/analysis/energy_ledger.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Nacre
+{
+  EnergyLedger::EnergyLedger(ShellSystem     &system,
+                             const MassTerms &mass,
+                             const double     damping)
+    : system_(system)
+    , mass_(mass)
+    , damping_(damping)
+  {}
+
+  double
+  EnergyLedger::kinetic_energy(const Vector &v) const
+  {
+    Vector momentum = system_.owned_vector();
+    mass_.vmult(momentum, system_.with_ghosts(v));
+    return 0.5 * (momentum * v);
+  }
+
+  EnergyBalance
+  EnergyLedger::start(const MotionState &motion, const double dt) const
+  {
+    EnergyBalance balance;
+    balance.is_kept = true;
+    balance.kinetic = kinetic_energy(motion.v);
+    balance.strain =
+      system_.shell_operator().energies(system_.with_ghosts(motion.u)).total();
+    balance.initial              = balance.kinetic + balance.strain;
+    const double round_off_speed = 1e-10 * system_.size() / dt;
+    balance.largest =
+      std::max(balance.initial,
+               mass_.total() * round_off_speed * round_off_speed);
+    return balance;
+  }
+
+  double
+  EnergyLedger::reaction_work(const Step &step) const
+  {
+    const Vector start = system_.with_ghosts(step.start.u);
+    const Vector end   = system_.with_ghosts(step.end.u);
+    const auto  &owned = system_.discretization().locally_owned_dofs();
+    // How far the supports have moved.
+    std::vector<std::pair<types::global_dof_index, double>> moves;
+    double                                                  largest = 0.;
+    for (const auto &line : system_.constraints().get_lines())
+      if (owned.is_element(line.index))
+        {
+          double move = end(line.index) - start(line.index);
+          for (const auto &[dof, weight] : line.entries)
+            move -= weight * (end(dof) - start(dof));
+          moves.emplace_back(line.index, move);
+          largest = std::max(largest, std::abs(move));
+        }
+    const auto communicator = system_.discretization().communicator();
+    if (Utilities::MPI::max(largest, communicator) <= 1e-13 * system_.size())
+      return 0.;
+    Vector residual = system_.owned_vector();
+    system_.shell_operator().residual(system_.with_ghosts(step.u_f),
+                                      residual,
+                                      &step.inertia);
+    double work = 0.;
+    for (const auto &[dof, move] : moves)
+      work += residual(dof) * move;
+    return Utilities::MPI::sum(work, communicator);
+  }
+
+  EnergyBalance
+  EnergyLedger::after_step(const EnergyBalance &before, const Step &step) const
+  {
+    const ShellOperator &shell = system_.shell_operator();
+    EnergyBalance        after(before);
+    after.prescribed_work += reaction_work(step);
+
+    const double end_time = step.start_time + step.dt;
+    system_.set_load_time(end_time);
+    const Vector end = system_.with_ghosts(step.end.u);
+    after.prescribed_work += shell.rotation_work(step.rotations, end);
+
+    Vector change(step.end.u);
+    change -= step.start.u;
+    Vector mean(step.end.u);
+    mean.sadd(0.5, 0.5, step.start.u);
+    system_.set_force_time(end_time - 0.5 * step.dt);
+    Vector loads = system_.owned_vector();
+    shell.loads(system_.with_ghosts(mean), &step.rotations.u, loads);
+    after.external_work += loads * change;
+    if (damping_ > 0.)
+      after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);
+
+    after.kinetic = kinetic_energy(step.end.v);
+    after.strain  = shell.energies(end).total();
+    after.largest = std::max({before.largest,
+                              after.kinetic + after.strain,
+                              std::abs(after.external_work),
+                              std::abs(after.prescribed_work)});
+    return after;
+  }
+} // namespace Nacre
