@@ -516,7 +516,7 @@ namespace Nacre
     }
 
 
-    /** Rigid elements are tools beside a shell; alone they are a mesh. */
+    /** Beside cells they are tools or a skin; alone they are a mesh. */
     void
     AbaqusReader::add_spare_cells()
     {
