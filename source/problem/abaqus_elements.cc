@@ -160,11 +160,14 @@ namespace Nacre::Abaqus
     type.kind = surface_kind(name);
     for (const char *const plane : {"CPS", "CPE", "CAX", "CGAX", "DC"})
       type.is_plane = type.is_plane || begins_with(name, plane);
-    if (begins_with(name, "R3D"))
-      {
-        type.use    = ElementUse::rigid_cell;
-        type.plural = "rigid elements";
-      }
+    for (const auto &[begin, plural] :
+         {Family{"R3D", "rigid elements"},
+          Family{"SFM3D", "surface elements without stiffness"}})
+      if (begins_with(name, begin))
+        {
+          type.use    = ElementUse::spare_cell;
+          type.plural = plural;
+        }
     return type;
   }
 } // namespace Nacre::Abaqus

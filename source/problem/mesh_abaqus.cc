@@ -51,7 +51,7 @@ namespace Nacre
         if (!has_elements_)
           text_.fail("the file has no elements (*ELEMENT): it is truncated or "
                      "no mesh.");
-        add_rigid_cells();
+        add_spare_cells();
         deck_.notes = notes_.sentences();
         if (!has_cells_)
           text_.fail("the file has no cells of a surface (shells, membranes or "
@@ -100,7 +100,7 @@ namespace Nacre
       std::string
       required(const std::string &parameter) const;
       void
-      add_rigid_cells();
+      add_spare_cells();
 
       MeshText       &text_;
       const OpenFile &open_;
@@ -125,8 +125,8 @@ namespace Nacre
       RigidMotion         system_;
       bool                in_system_ = false;
 
-      /** A rigid element, which is a cell if there are no others. */
-      struct RigidElement
+      /** A cell if there are no others. */
+      struct SpareCell
       {
         Part                  *part;
         long long              number;
@@ -134,9 +134,9 @@ namespace Nacre
         std::vector<long long> nodes;
       };
 
-      std::vector<RigidElement> rigid_;
-      bool                      has_cells_ = false;
-      DeckNotes                 notes_;
+      std::vector<SpareCell> spare_;
+      bool                   has_cells_ = false;
+      DeckNotes              notes_;
     };
 
 
@@ -388,7 +388,7 @@ namespace Nacre
     {
       element_.insert(element_.end(), words.begin(), words.end());
       const bool is_cell =
-        type_.use == ElementUse::cell || type_.use == ElementUse::rigid_cell;
+        type_.use == ElementUse::cell || type_.use == ElementUse::spare_cell;
       // Beams may have a further node, the number of others isn't known.
       const bool is_complete =
         is_cell && type_.kind.n_nodes > 0 ?
@@ -425,9 +425,9 @@ namespace Nacre
       for (std::size_t i = 1; i <= n; ++i)
         nodes.push_back(
           text_.to_integer(words[i], "a node of the element " + words[0]));
-      if (type_.use == ElementUse::rigid_cell)
+      if (type_.use == ElementUse::spare_cell)
         {
-          rigid_.push_back({part_, number, type_, nodes});
+          spare_.push_back({part_, number, type_, nodes});
           return;
         }
       part_->mesh.add_element(number, type_.kind, nodes, {});
@@ -516,11 +516,11 @@ namespace Nacre
     }
 
 
-    /** Rigid elements are tools beside a shell; alone they are a mesh. */
+    /** Beside cells they are tools or a skin; alone they are a mesh. */
     void
-    AbaqusReader::add_rigid_cells()
+    AbaqusReader::add_spare_cells()
     {
-      for (const RigidElement &element : rigid_)
+      for (const SpareCell &element : spare_)
         if (has_cells_)
           {
             notes_.leave_out_element(element.type);
@@ -531,7 +531,7 @@ namespace Nacre
                                          element.type.kind,
                                          element.nodes,
                                          {});
-      has_cells_ = has_cells_ || !rigid_.empty();
+      has_cells_ = has_cells_ || !spare_.empty();
     }
   } // namespace
 

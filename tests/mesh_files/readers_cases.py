@@ -181,6 +181,8 @@ good("others_are_left_out", DECK + """\
 15, 1, 2, 5, 4
 *ELEMENT, TYPE=R3D4
 16, 1, 2, 5, 4
+*ELEMENT, TYPE=SFM3D4
+19, 1, 2, 5, 4
 *ELEMENT, TYPE=CONN3D2
 17, 5, 6
 *ELEMENT, TYPE=GAPUNI
@@ -192,6 +194,7 @@ b, c
             ["1 element ", "DASHPOTA (dashpots)"],
             ["1 element ", "F3D4 (fluid elements)"],
             ["1 element ", "R3D4 (rigid elements)"],
+            ["1 element ", "SFM3D4 (surface elements without stiffness)"],
             ["1 element ", "CONN3D2 (connectors)"],
             ["1 element ", "GAPUNI (gaps)"], ["constraints", "*TIE"]],
      ranks=(1, 2))

@@ -244,9 +244,15 @@ namespace
     const auto turned      = make_surface(make_file(bend, n_nodes, 4), "file");
     report(good.has_triangles() == (n_nodes % 3 == 0 && n_nodes != 9),
            name + "shape");
-    report(good.regions() == std::vector<std::string>{"", "first", "rest"} &&
-             turned.regions() == good.regions(),
-           name + "regions");
+    bool regions = true;
+    for (const auto *const surface : {&good, &turned})
+      {
+        const auto &found = surface->regions().regions;
+        regions = regions && found.size() == 3 && found[0].names.empty() &&
+                  found[1].names == std::vector<std::string>{"first"} &&
+                  found[2].names == std::vector<std::string>{"rest"};
+      }
+    report(regions, name + "regions");
     for (const unsigned int region : {1u, 2u})
       check_below(name + "area of region " + std::to_string(region),
                   std::abs(area(turned, region) / area(good, region) - 1.),

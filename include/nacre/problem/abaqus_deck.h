@@ -55,8 +55,8 @@ namespace Nacre::Abaqus
   {
     /** A cell of the surface, or an error for solids and unknown types. */
     cell,
-    /** A cell if the file has no deformable ones. */
-    rigid_cell,
+    /** A cell if the file has no others: rigid or without stiffness. */
+    spare_cell,
     /** It can name an edge; its stiffness is left out. */
     line,
     left_out
