@@ -223,7 +223,7 @@ namespace Nacre
     // |u_i| and eps times the distance of nodes. Measured: 1e-5 to 4e-3 of the
     // value returned, for R/h from 10 to 10^4: doc/paths.md.
     const double accuracy = 10. * std::numeric_limits<double>::epsilon();
-    const double n_nodes  = double(u.size()) / spacedim;
+    const double n_nodes  = 1. * u.size() / spacedim;
     const double distance = std::sqrt(area_ / n_nodes);
     Vector       diagonal = owned_vector();
     const int    ierr     = matrix_.trilinos_matrix().ExtractDiagonalCopy(
