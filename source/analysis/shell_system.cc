@@ -229,10 +229,12 @@ namespace Nacre
     const int    ierr     = matrix_.trilinos_matrix().ExtractDiagonalCopy(
       *diagonal.trilinos_vector()(0));
     AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-    double energy = 0.;
-    for (const auto i : u.locally_owned_elements())
-      energy += std::abs(diagonal(i)) *
-                (Utilities::fixed_power<2>(u(i)) + distance * distance);
+    double        energy   = 0.;
+    const double *u_values = u.trilinos_vector()[0];
+    const double *K_values = diagonal.trilinos_vector()[0];
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      energy += std::abs(K_values[i]) *
+                (Utilities::fixed_power<2>(u_values[i]) + distance * distance);
     return accuracy * accuracy *
            Utilities::MPI::sum(energy, discretization_.communicator());
   }
