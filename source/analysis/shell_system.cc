@@ -243,16 +243,18 @@ namespace Nacre
     // |u_i| and eps times the distance of nodes. Measured: 1e-5 to 4e-3 of the
     // value returned, for R/h from 10 to 10^4: doc/paths.md.
     const double accuracy = 10. * std::numeric_limits<double>::epsilon();
-    const double n_nodes  = double(u.size()) / spacedim;
+    const double n_nodes  = 1. * u.size() / spacedim;
     const double distance = std::sqrt(area_ / n_nodes);
     Vector       diagonal = owned_vector();
     const int    ierr     = matrix_.trilinos_matrix().ExtractDiagonalCopy(
       *diagonal.trilinos_vector()(0));
     AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-    double energy = 0.;
-    for (const auto i : u.locally_owned_elements())
-      energy += std::abs(diagonal(i)) *
-                (Utilities::fixed_power<2>(u(i)) + distance * distance);
+    double        energy   = 0.;
+    const double *u_values = u.trilinos_vector()[0];
+    const double *K_values = diagonal.trilinos_vector()[0];
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      energy += std::abs(K_values[i]) *
+                (Utilities::fixed_power<2>(u_values[i]) + distance * distance);
     return accuracy * accuracy *
            Utilities::MPI::sum(energy, discretization_.communicator());
   }

@@ -77,7 +77,7 @@ namespace Nacre
             return result;
           }
         double factor = parameters_.damping;
-        if (work && k > 0)
+        if (work && k > 0 && energy > result.last.round_off_work)
           factor *= search(u, du, result.last.work, work);
         u.add(factor, du);
 

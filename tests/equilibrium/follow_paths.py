@@ -130,6 +130,19 @@ def elastica(rows):
     check_near("lateral", abs(rows[-1]["w"]), 2.54267079, 3e-3)
 
 
+def ring(rows):
+    """The elastica of a ring, inextensible, of two lobes: R = 1, EI = 1."""
+    check_stable(rows)
+    for time, long, short in ((0.7, 1.30855814, 0.49523512),
+                              (0.8, 1.35686902, 0.29133701),
+                              (1.0, 1.37162233, 0.04395922)):
+        axes = sorted((1. + at(rows, time)["w"], 1. + at(rows, time)["v"]))
+        check_near("long half axis", axes[1], long, 1e-3)
+        check_near("displacement along the short one", 1. - axes[0], 1. - short,
+                   1e-3)
+    check(abs(at(rows, 0.5)["w"]) < 1e-4, "buckled too early")
+
+
 def cylinder(rows):
     check_stable(rows)
     n_iterations = sum(row["iterations"] for row in rows)
@@ -179,6 +192,10 @@ CASES = {
     "strut": ("strut.prm", {"Study/Degrees": "3", "Analysis/Time step": "1",
                             "Analysis/Load factor": "1.1*t",
                             "Analysis/End time": "1"}, elastica),
+    "ring": ("ring.prm", {
+        "Analysis/Type": "relaxation", "Analysis/Time step": "0.1",
+        "Quantities/Quantities": "w = displacement x at (R, 0, 0); "
+                                 "v = displacement y at (0, R, 0)"}, ring),
     "cylinder": (FIGURE3, {"Mid-surface/Subdivisions": "16, 10",
                            "Analysis/Minimum time step": "0.2"}, cylinder),
 }

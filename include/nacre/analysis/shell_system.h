@@ -249,7 +249,7 @@ namespace Nacre
     Expression           &load_factor_;
     double                factor_ = 0.;
     double                size_;
-    double                area_;
+    double                area_; // of the undeformed surface
 
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
