@@ -93,8 +93,10 @@ namespace Nacre
                      << ", is kept. Try a smaller 'Analysis/Minimum time "
                         "step', or ";
                 if (parameters_.type == AnalysisType::dynamic)
-                  text << "'Scheme = generalised alpha', which damps what the "
-                          "step can't resolve.";
+                  text << (parameters_.scheme == TimeScheme::energy_momentum ?
+                             "a finer mesh where the shell crumples." :
+                             "'Scheme = energy momentum', which gains no "
+                             "energy.");
                 else
                   text << "'Type = relaxation' or 'dynamic' if the path has a "
                           "limit or bifurcation point there.";
