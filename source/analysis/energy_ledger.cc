@@ -61,8 +61,10 @@ namespace Nacre
     const auto communicator = system_.discretization().communicator();
     if (Utilities::MPI::max(largest, communicator) <= 1e-13 * system_.size())
       return 0.;
-    Vector w(step.end.a);
-    w.sadd(0.5, 0.5, step.start.a);
+    // Not the mean of a: generalised alpha's a is that of another time.
+    Vector w(step.end.v);
+    w -= step.start.v;
+    w /= step.dt;
     w.add(0.5 * damping_, step.end.v, 0.5 * damping_, step.start.v);
     const Vector  ghosted_w = system_.with_ghosts(w);
     const Inertia inertia{mass_,

@@ -16,7 +16,7 @@ namespace Nacre
    *
    * external work        f(t_m, u_m) . Delta u, exact for constant dead loads
    *                      and following pressures
-   * prescribed motion    reactions at the means of u, v, a times the change of
+   * prescribed motion    reactions at the means of u and v times the change of
    *                      the prescribed displacements, and the moments of the
    *                      supports times that of the prescribed rotations
    * dissipation          c M Delta u . Delta u / Delta t, of mass damping
