@@ -115,9 +115,7 @@ namespace Nacre
                        const EnergyBalance &before,
                        const MotionState   &end) const
   {
-    const Vector w = inertia(u_f_);
-    return ledger.after_step(
-      before,
-      {time_, dt_, start_, end, step_start_, u_f_, terms(w)});
+    return ledger
+      .after_step(before, {time_, dt_, start_, end, step_start_, conserves_});
   }
 } // namespace Nacre

@@ -41,7 +41,7 @@ namespace Nacre
   }
 
   double
-  EnergyLedger::reaction_work(const Step &step) const
+  EnergyLedger::reaction_work(const Step &step, const Vector &mean) const
   {
     const Vector start = system_.with_ghosts(step.start.u);
     const Vector end   = system_.with_ghosts(step.end.u);
@@ -61,10 +61,18 @@ namespace Nacre
     const auto communicator = system_.discretization().communicator();
     if (Utilities::MPI::max(largest, communicator) <= 1e-13 * system_.size())
       return 0.;
-    Vector residual = system_.owned_vector();
-    system_.shell_operator().residual(system_.with_ghosts(step.u_f),
-                                      residual,
-                                      &step.inertia);
+    // Not the mean of a: generalised alpha's a is that of another time.
+    Vector w(step.end.v);
+    w -= step.start.v;
+    w /= step.dt;
+    w.add(0.5 * damping_, step.end.v, 0.5 * damping_, step.start.v);
+    const Vector  ghosted_w = system_.with_ghosts(w);
+    const Inertia inertia{mass_,
+                          ghosted_w,
+                          0.,
+                          step.conserves ? &step.step_start : nullptr};
+    Vector        residual = system_.owned_vector();
+    system_.shell_operator().residual(mean, residual, &inertia);
     double work = 0.;
     for (const auto &[dof, move] : moves)
       work += residual(dof) * move;
@@ -76,20 +84,26 @@ namespace Nacre
   {
     const ShellOperator &shell = system_.shell_operator();
     EnergyBalance        after(before);
-    after.prescribed_work += reaction_work(step);
-
-    const double end_time = step.start_time + step.dt;
-    system_.set_load_time(end_time);
-    const Vector end = system_.with_ghosts(step.end.u);
-    after.prescribed_work += shell.rotation_work(step.rotations, end);
-
-    Vector change(step.end.u);
+    Vector               change(step.end.u), mean(step.end.u);
     change -= step.start.u;
-    Vector mean(step.end.u);
     mean.sadd(0.5, 0.5, step.start.u);
-    system_.set_force_time(end_time - 0.5 * step.dt);
+    const Vector ghosted_mean = system_.with_ghosts(mean);
+    const Vector end          = system_.with_ghosts(step.end.u);
+    const double end_time     = step.start_time + step.dt;
+    const double middle       = end_time - 0.5 * step.dt;
+    if (!step.conserves)
+      {
+        system_.set_load_time(middle);
+        after.prescribed_work += reaction_work(step, ghosted_mean);
+      }
+    system_.set_load_time(end_time);
+    system_.set_force_time(middle);
+    if (step.conserves)
+      after.prescribed_work += reaction_work(step, ghosted_mean);
+    after.prescribed_work += shell.rotation_work(step.step_start, end);
+
     Vector loads = system_.owned_vector();
-    shell.loads(system_.with_ghosts(mean), &step.rotations.u, loads);
+    shell.loads(ghosted_mean, &step.step_start.u, loads);
     after.external_work += loads * change;
     if (damping_ > 0.)
       after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);

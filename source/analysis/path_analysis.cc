@@ -94,7 +94,7 @@ namespace Nacre
             text << attempt.result.reason;
             if (state.next_step < parameters_.minimum_time_step)
               return text.str() + "." + kept.str() + " " +
-                     remedy(attempt.result.kind, parameters_.type);
+                     remedy(attempt.result.kind, parameters_);
             messenger(text.str() + "; trying half the step");
             continue;
           }

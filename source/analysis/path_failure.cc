@@ -9,13 +9,14 @@ namespace Nacre
   {
     /** For a path that has no equilibrium, or several, nearby. */
     std::string
-    other_analysis(const AnalysisType type)
+    other_analysis(const PathParameters &parameters)
     {
-      switch (type)
+      switch (parameters.type)
         {
           case AnalysisType::dynamic:
-            return "'Scheme = generalised alpha', which damps what the step "
-                   "can't resolve";
+            return parameters.scheme == TimeScheme::energy_momentum ?
+                     "a finer mesh where the shell crumples" :
+                     "'Scheme = energy momentum', which gains no energy";
           case AnalysisType::relaxation:
             return "'Type = dynamic'";
           default:
@@ -26,28 +27,28 @@ namespace Nacre
   } // namespace
 
   std::string
-  remedy(const FailureKind kind, const AnalysisType type)
+  remedy(const FailureKind kind, const PathParameters &parameters)
   {
     switch (kind)
       {
         case FailureKind::impossible_deformation:
           return "Try a finer mesh or a higher degree there: a cell can't "
                  "follow a sharp bend; or " +
-                 other_analysis(type) + ".";
+                 other_analysis(parameters) + ".";
         case FailureKind::singular_tangent:
           return "The shell, or a part of it, may move freely in that state, "
                  "its cells may be too thin, or the path bifurcates there: "
                  "prescribe more, or try " +
-                 other_analysis(type) + ".";
+                 other_analysis(parameters) + ".";
         case FailureKind::not_finite:
           return "Cells collapse, or the loads or the stiffness are of an "
                  "extreme size: check their units, or try a finer mesh.";
         case FailureKind::no_stable_state:
           return "Try more 'Analysis/Maximum iterations', or " +
-                 other_analysis(type) + ".";
+                 other_analysis(parameters) + ".";
         default:
           return "Try a smaller 'Analysis/Minimum time step', or " +
-                 other_analysis(type) + ".";
+                 other_analysis(parameters) + ".";
       }
   }
 } // namespace Nacre

@@ -16,9 +16,9 @@ namespace Nacre
    *
    * external work        f(t_m, u_m) . Delta u, exact for constant dead loads
    *                      and following pressures
-   * prescribed motion    reactions of the scheme's equation times the change
-   *                      of the prescribed displacements, and the moments of
-   *                      the supports times that of the prescribed rotations
+   * prescribed motion    reactions at the means of u and v times the change of
+   *                      the prescribed displacements, and the moments of the
+   *                      supports times that of the prescribed rotations
    * dissipation          c M Delta u . Delta u / Delta t, of mass damping
    */
   class EnergyLedger
@@ -34,10 +34,9 @@ namespace Nacre
       const MotionState &start;
       const MotionState &end;
       /** The start's displacement and prescribed rotations. */
-      const StepStart &rotations;
-      /** What the scheme's equation has been solved with. */
-      const Vector  &u_f;
-      const Inertia &inertia;
+      const StepStart &step_start;
+      /** Whether the internal forces were the energy-momentum ones. */
+      bool conserves;
     };
 
     /** @param damping c (1/time) */
@@ -54,8 +53,8 @@ namespace Nacre
     start(const MotionState &motion, const double dt) const;
 
     /**
-     * The balance after a @p step, with the loads and conditions that the step
-     * was taken with; leaves those of the middle of the step. Collective.
+     * The balance after a @p step. Leaves the loads of the middle of the step
+     * and the prescribed rotations of its end. Collective.
      */
     EnergyBalance
     after_step(const EnergyBalance &before, const Step &step) const;
@@ -64,9 +63,12 @@ namespace Nacre
     double
     kinetic_energy(const Vector &v) const;
 
-    /** Work of the forces at prescribed displacements. */
+    /**
+     * Work of the forces at prescribed displacements. @param mean ghosted mean
+     * displacement
+     */
     double
-    reaction_work(const Step &step) const;
+    reaction_work(const Step &step, const Vector &mean) const;
 
     ShellSystem     &system_;
     const MassTerms &mass_;

@@ -11,9 +11,9 @@
 
 namespace Nacre
 {
-  /** What helps a path of the @p type that steps of any size can't go on. */
+  /** What helps a path that steps of any size can't continue. */
   std::string
-  remedy(const FailureKind kind, const AnalysisType type);
+  remedy(const FailureKind kind, const PathParameters &parameters);
 } // namespace Nacre
 
 #endif
