@@ -37,6 +37,7 @@ namespace Nacre
         "Study/Output subdivisions",
         "Study/Report seconds",
         mesh_file_name,
+        "Discretization/Assembly",
         "Discretization/Tangent",
         "Analysis/End time",
         "Analysis/Time step",

@@ -32,7 +32,7 @@ namespace Nacre
    * for bit.
    *
    * The first entries are the layout and the run's ProblemRecord. Then a rank's
-   * file holds the positions and the values of the nodes of its cells, cell by cell
+   * file holds the positions and values of the nodes of its cells, cell by cell
    * under the cell's CellId, which no partition changes: any number of ranks
    * can go on from it. Cells are dealt out along a curve, so that a rank finds
    * its cells in a few neighbouring files and reads no others.
