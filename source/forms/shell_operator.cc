@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/base/mutation.h>
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/forms/shell_pattern.h>
@@ -142,7 +143,6 @@ namespace Nacre
     , section_(section)
     , boundary_conditions_(boundary_conditions)
     , loads_(loads)
-    , load_terms_(discretization, section, loads)
     , penalty_(discretization,
                section,
                // Strains that vanish at few points only must not count as none.
@@ -152,10 +152,19 @@ namespace Nacre
     , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
     , has_deformed_levers_(kinematics_options.model != KinematicsModel::linear)
   {
+    locate_point_forces();
     AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
                 ExcMessage("Loads/Pressure: neighbouring cells have opposite "
                            "normals, so that a pressure has no direction; use "
                            "Force per area."));
+  }
+
+  void
+  ShellOperator::locate_point_forces()
+  {
+    for (const auto &force : loads_.point_forces())
+      force_points_.push_back(
+        discretization_.locate(force.position, force.source));
   }
 
   void
@@ -219,7 +228,7 @@ namespace Nacre
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);
-    load_terms_.add_point_forces(constraints, 1., right_hand_side);
+    add_point_forces(constraints, 1., right_hand_side);
     return sum;
   }
 
@@ -242,7 +251,7 @@ namespace Nacre
     result.compress(VectorOperation::add);
     AffineConstraints<double> none;
     none.close();
-    load_terms_.add_point_forces(none, -1., result);
+    add_point_forces(none, -1., result);
     return sum_over_ranks(sum, discretization_.communicator());
   }
 
@@ -325,15 +334,78 @@ namespace Nacre
     copy.terms.reinit(copy.dofs.size());
     extract(u, copy.dofs, scratch.u);
     scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
-    load_terms_.subtract_on_cell(scratch.kinematics->cell_values(),
-                                 scratch.u,
-                                 copy.terms);
+    if (!loads_.no_surface_load())
+      subtract_surface_loads(scratch.kinematics->cell_values(),
+                             copy.terms.residual);
+    if (loads_.pressure_follows())
+      subtract_following_pressure(scratch.kinematics->cell_values(),
+                                  scratch.u,
+                                  copy.terms);
     if (inertia != nullptr)
       inertia->add(cell,
                    copy.dofs,
                    discretization_.node_dofs(),
                    copy.terms.residual,
                    copy.wants_tangent ? &copy.terms.tangent : nullptr);
+  }
+
+  void
+  ShellOperator::subtract_following_pressure(const ShellCellValues &values,
+                                             const dealii::Vector<double> &u,
+                                             LocalTerms &terms) const
+  {
+    const auto &shapes = values.shapes();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        auto phi = values.frame(q).a_cov;
+        for (unsigned int a = 0; u.size() > 0 && a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            for (unsigned int alpha = 0; alpha < dim; ++alpha)
+              phi[alpha][c] +=
+                shapes.gradient(q, a)[alpha] * u[values.dof(a, c)];
+        const double p =
+          loads_.pressure(values.point(q)) * values.JxW(q) / values.frame(q).j0;
+        const auto force = p * cross_product_3d(phi[0], phi[1]);
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            terms.residual[values.dof(a, c)] -= shapes.value(q, a) * force[c];
+        if (!terms.wants_tangent)
+          continue;
+        for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+          {
+            // d(phi,1 x phi,2) = du,1 x phi,2 + phi,1 x du,2 = m x du
+            const auto m = shapes.gradient(q, b)[1] * phi[0] -
+                           shapes.gradient(q, b)[0] * phi[1];
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
+                  const double       w = p * shapes.value(q, a);
+                  terms.tangent(values.dof(a, c), values.dof(b, e)) -=
+                    NACRE_MUTABLE(following_tangent, 1., -1.) * w * m[d];
+                  terms.tangent(values.dof(a, c), values.dof(b, d)) += w * m[e];
+                }
+          }
+      }
+  }
+
+  void
+  ShellOperator::subtract_surface_loads(const ShellCellValues  &values,
+                                        dealii::Vector<double> &residual) const
+  {
+    const auto               &shapes = values.shapes();
+    const unsigned int *const dofs   = discretization_.node_dofs().data();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto   x            = values.point(q);
+        const double area_density = section_.density(x) * section_.thickness(x);
+        const auto   load =
+          values.JxW(q) *
+          loads_.force_per_area(x, values.frame(q).t0, area_density);
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            residual[dofs[spacedim * a + c]] -= shapes.value(q, a) * load[c];
+      }
   }
 
   void
@@ -348,7 +420,8 @@ namespace Nacre
     const auto conditions = boundary_conditions_.edges().find(id);
     const bool rotates    = (conditions != boundary_conditions_.edges().end() &&
                           conditions->second.rotation != nullptr);
-    if (!rotates && !load_terms_.act_on(id))
+    if (!rotates && loads_.edge_forces().count(id) == 0 &&
+        loads_.edge_moments().count(id) == 0)
       return;
 
     scratch.edge.reinit(cell, f);
@@ -367,64 +440,65 @@ namespace Nacre
                                                scratch.u,
                                                face.terms);
       }
-    load_terms_.subtract_on_edge(id,
-                                 scratch.edge,
-                                 scratch.u,
-                                 *scratch.kinematics,
-                                 face.terms);
+    add_edge_loads(id,
+                   scratch.edge,
+                   scratch.u,
+                   *scratch.kinematics,
+                   face.terms);
     copy.take_block(face);
   }
 
   void
-  ShellOperator::add_loads(const Vector &u, Vector &result) const
+  ShellOperator::add_edge_loads(const types::boundary_id      id,
+                                const ShellEdgeValues        &edge,
+                                const dealii::Vector<double> &u,
+                                Kinematics                   &kinematics,
+                                LocalTerms                   &terms) const
   {
-    const auto                           kinematics = kinematics_->clone();
-    ShellEdgeValues                      edge(discretization_);
-    dealii::Vector<double>               local_u;
-    LocalTerms                           terms;
-    std::vector<types::global_dof_index> dofs(
-      discretization_.node_dofs().size());
-    terms.wants_tangent = false;
-    const auto add      = [&](const auto &indices) {
-      terms.residual *= -1.;
-      result.add(indices,
-                 std::vector<double>(terms.residual.begin(),
-                                     terms.residual.end()));
-    };
-    run_on_all_ranks(discretization_.communicator(), [&]() {
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            extract(&u, dofs, local_u);
-            terms.reinit(dofs.size());
-            kinematics->add_cell_terms(cell, local_u, terms);
-            terms.reinit(dofs.size());
-            load_terms_.subtract_on_cell(kinematics->cell_values(),
-                                         local_u,
-                                         terms);
-            add(dofs);
-            for (const auto f : cell->face_indices())
-              if (cell->at_boundary(f) &&
-                  load_terms_.act_on(cell->face(f)->boundary_id()))
-                {
-                  edge.reinit(cell, f);
-                  extract(&u, edge.dof_indices(), local_u);
-                  terms.reinit(edge.n_dofs());
-                  load_terms_.subtract_on_edge(cell->face(f)->boundary_id(),
-                                               edge,
-                                               local_u,
-                                               *kinematics,
-                                               terms);
-                  add(edge.dof_indices());
-                }
-          }
-    });
-    result.compress(VectorOperation::add);
-    AffineConstraints<double> none;
-    none.close();
-    load_terms_.add_point_forces(none, 1., result);
+    const auto moment = loads_.edge_moments().find(id);
+    if (moment != loads_.edge_moments().end())
+      {
+        std::vector<double> values(edge.n_points());
+        for (unsigned int q = 0; q < values.size(); ++q)
+          values[q] = moment->second(edge.point(q));
+        kinematics.add_moment_terms(edge, values, u, terms);
+      }
+    const auto force = loads_.edge_forces().find(id);
+    if (force == loads_.edge_forces().end())
+      return;
+    const auto &shapes = edge.shapes(0);
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        const auto f = edge.JxW(q) * force->second(edge.point(q));
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            terms.residual[edge.dof(0, a, c)] -= shapes.value(q, a) * f[c];
+      }
+  }
+
+  void
+  ShellOperator::add_point_forces(const AffineConstraints<double> &constraints,
+                                  const double                     factor,
+                                  Vector                          &vector) const
+  {
+    const auto &fe = discretization_.scalar_fe();
+    for (unsigned int k = 0; k < force_points_.size(); ++k)
+      if (force_points_[k].is_mine)
+        {
+          const auto &place = force_points_[k];
+          const auto  force =
+            loads_.point_forces()[k].force(loads_.point_forces()[k].position);
+          const auto             n = discretization_.node_dofs().size();
+          dealii::Vector<double> local(n);
+          std::vector<types::global_dof_index> dofs(n);
+          place.cell->get_dof_indices(dofs);
+          for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              local[discretization_.node_dofs()[spacedim * a + c]] =
+                factor * fe.shape_value(a, place.unit) * force[c];
+          constraints.distribute_local_to_global(local, dofs, vector);
+        }
+    vector.compress(VectorOperation::add);
   }
 
   Tensor<1, spacedim>

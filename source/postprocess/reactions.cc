@@ -282,7 +282,7 @@ namespace Nacre
 
     Vector f(shell.discretization.locally_owned_dofs(),
              shell.discretization.communicator());
-    shell.shell_operator.add_loads(shell.displacement, f);
+    shell.shell_operator.loads(shell.displacement, f);
     loads = resultant(shell, f, origin);
     if (shell.mass == nullptr && !has_deformed_levers(shell))
       return;

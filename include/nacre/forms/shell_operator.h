@@ -6,7 +6,6 @@
 
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/kinematics.h>
-#include <nacre/forms/load_terms.h>
 #include <nacre/forms/mass_terms.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -31,7 +30,10 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** Throws as LoadTerms does; collective. */
+    /**
+     * Throws if a point force lies off the mesh or on both lips of a slit;
+     * collective.
+     */
     ShellOperator(const Discretization        &discretization,
                   const SectionLaw            &section,
                   const BoundaryConditions    &boundary_conditions,
@@ -86,9 +88,9 @@ namespace Nacre
     Energies
     energies(const Vector &u) const;
 
-    /** Add the loads (force) at the ghosted displacement @p u; collective. */
+    /** The nodes' forces of all loads at the ghosted displacement @p u. */
     void
-    add_loads(const Vector &u, Vector &result) const;
+    loads(const Vector &u, Vector &result) const;
 
     /**
      * The virtual work of the rotation conditions of the edge @p id on a
@@ -143,17 +145,46 @@ namespace Nacre
                     ScratchData &scratch,
                     CopyData    &copy) const;
 
+    void
+    subtract_surface_loads(const ShellCellValues  &values,
+                           dealii::Vector<double> &residual) const;
+
+    /**
+     * Pressure along the deformed normal on the deformed area: the force per
+     * reference area is p phi,1 x phi,2; with its derivative.
+     */
+    void
+    subtract_following_pressure(const ShellCellValues        &values,
+                                const dealii::Vector<double> &u,
+                                LocalTerms                   &terms) const;
+
+    void
+    add_edge_loads(const types::boundary_id      id,
+                   const ShellEdgeValues        &edge,
+                   const dealii::Vector<double> &u,
+                   Kinematics                   &kinematics,
+                   LocalTerms                   &terms) const;
+
+    /** Add the virtual work of point forces times @p factor. */
+    void
+    add_point_forces(const AffineConstraints<double> &constraints,
+                     const double                     factor,
+                     Vector                          &vector) const;
+
+    void
+    locate_point_forces();
+
     const Discretization       &discretization_;
     const SectionLaw           &section_;
     const BoundaryConditions   &boundary_conditions_;
     const Loads                &loads_;
-    LoadTerms                   load_terms_;
     EdgePenalty                 penalty_;
     std::unique_ptr<Kinematics> kinematics_;
     /** Whether to assemble the symmetric part of the tangent. */
     const bool symmetrizes_;
     /** Whether moments take the deformed positions. */
-    const bool has_deformed_levers_;
+    const bool                has_deformed_levers_;
+    std::vector<SurfacePoint> force_points_;
   };
 } // namespace Nacre
 
