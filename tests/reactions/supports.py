@@ -187,7 +187,7 @@ def roof(digits, angle):
     return nodes
 
 
-@case(1, 2)
+@case(1)
 def planes_of_curved_edges(nacre):
     """Digits as in single precision, in planes oblique to the axes."""
     prm = of_file("roof.inp",
