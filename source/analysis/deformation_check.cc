@@ -280,7 +280,8 @@ namespace Nacre
   find_torn_edge(const ShellOperator &shell_operator, const TrilinosVector &u)
   {
     const auto gap = shell_operator.largest_rotation_gap(u);
-    if (gap.angle <= 0.5 * numbers::PI)
+    // The edge's moment grows like sin(2 angle): up to 45 degrees.
+    if (gap.angle <= 0.25 * numbers::PI)
       return "";
     std::ostringstream text;
     text << "the edge at (" << gap.position

@@ -138,6 +138,17 @@ def fold_force_relaxation(run):
         result.ends(1, r"at \(\S+ \S+ \S+\) of the undeformed surface")
 
 
+def torn_clamp(run):
+    """The first step of it, not to be made smaller."""
+    result = run("fold_force.prm", {"Analysis/Type": "relaxation",
+                                    "Analysis/Maximum iterations": 12,
+                                    "Analysis/Minimum time step": 0.1})
+    result.ends(1, r"the edge at \(0 \S+ 0\) of the undeformed surface is torn "
+                   r"off its prescribed rotation, by 1\d\d", "at t = 0, is kept",
+                "finer mesh or a higher degree", "'Type = dynamic'")
+    result.keeps_last_state()
+
+
 def fold_force_fine(run):
     """Cells short enough follow the bend, without a false alarm."""
     result = run("fold_force.prm", {**NO_VTU, "Study/Refinements": 1})
@@ -236,13 +247,13 @@ def twist(run):
 
 def twist_back(run):
     """Turned the other way: the mirrored state, with the same energy."""
-    forth = run("twist.prm", {**NO_VTU, "Analysis/End time": 0.55,
-                              "Mid-surface/Subdivisions": "10, 1"})
-    back = run("twist.prm", {**NO_VTU, "Analysis/End time": 0.55,
-                             "Mid-surface/Subdivisions": "10, 1",
-                             "Constants": "L = 10, b = 1, turns = -1"})
+    few = {**NO_VTU, "Analysis/End time": 0.6, "Analysis/Time step": 0.1,
+           "Mid-surface/Subdivisions": "6, 1"}
+    forth = run("twist.prm", few)
+    back = run("twist.prm", {**few, "Constants": "L = 10, b = 1, turns = -1"})
     for result in (forth, back):
         result.ends(0)
+        check(len(result.rows) == 7 and result.cut_back() == 0, "cut back")
     for a, b in zip(forth.rows, back.rows):
         check(abs(a["U"] - b["U"]) <= 1e-6 * a["U"] + 1e-15,
               f"{a['U']} and {b['U']} at t = {a['time']}")
@@ -269,8 +280,8 @@ def fold_rotate(run, more=()):
 
 
 CASES = {case.__name__: case for case in (
-    fold_force_coarse, fold_force_relaxation, fold_force_fine, undefined_load,
-    undefined_point_force, undefined_displacement, collapsed_cell,
+    fold_force_coarse, fold_force_relaxation, torn_clamp, fold_force_fine,
+    undefined_load,    undefined_point_force, undefined_displacement, collapsed_cell,
     singular_tangent, twist, twist_back, fold_rotate, fold_rotate_in_plane)}
 
 

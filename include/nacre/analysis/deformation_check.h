@@ -44,9 +44,9 @@ namespace Nacre
 
   /**
    * Why the ghosted displacement @p u tears the shell off a prescribed
-   * rotation: the normal of an edge departs by more than 90 degrees from it.
-   * Beyond, the form would pull the edge towards the opposite direction. Empty
-   * if nothing is wrong. Collective.
+   * rotation: the normal of an edge departs by more than 45 degrees from it.
+   * Beyond, the moment that pulls it back falls again, and turns over at 90
+   * degrees. Empty if nothing is wrong. Collective.
    */
   std::string
   find_torn_edge(const ShellOperator                 &shell_operator,
