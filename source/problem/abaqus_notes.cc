@@ -30,17 +30,17 @@ namespace Nacre::Abaqus
   void
   DeckNotes::see_keyword(const Keyword &keyword)
   {
-    static const std::set<std::string> constraints = {"*RIGIDBODY",
-                                                      "*EQUATION",
-                                                      "*MPC",
-                                                      "*TIE",
-                                                      "*COUPLING",
-                                                      "*DISTRIBUTINGCOUPLING",
-                                                      "*KINEMATICCOUPLING",
-                                                      "*EMBEDDEDELEMENT",
-                                                      "*SHELLTOSOLIDCOUPLING"};
-    if (constraints.count(keyword.name) > 0)
-      constraints_.insert(keyword.name);
+    for (const std::string constraint : {"*RIGID BODY",
+                                         "*EQUATION",
+                                         "*MPC",
+                                         "*TIE",
+                                         "*COUPLING",
+                                         "*DISTRIBUTING COUPLING",
+                                         "*KINEMATIC COUPLING",
+                                         "*EMBEDDED ELEMENT",
+                                         "*SHELL TO SOLID COUPLING"})
+      if (keyword.name == Keyword(constraint).name)
+        constraints_.insert(constraint);
     if (keyword.name == "*SHELLSECTION" && keyword.has("OFFSET"))
       ++n_with_offsets_;
   }
