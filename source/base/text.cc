@@ -142,6 +142,32 @@ namespace Nacre::Text
   }
 
 
+  std::string
+  quoted(const std::string &name)
+  {
+    if (name.find_first_of(",:;()\"") == std::string::npos &&
+        name.find("->") == std::string::npos)
+      return name;
+    std::string result = "\"";
+    for (const char c : name)
+      result += (c == '"') ? "\"\"" : std::string(1, c);
+    return result + '"';
+  }
+
+
+  std::string
+  list(const std::vector<std::string> &names)
+  {
+    const std::size_t n_shown = std::min<std::size_t>(names.size(), 40);
+    std::string       text;
+    for (std::size_t i = 0; i < n_shown; ++i)
+      text += (i == 0 ? "" : ", ") + names[i];
+    if (n_shown < names.size())
+      text += " and " + std::to_string(names.size() - n_shown) + " others";
+    return text;
+  }
+
+
   std::vector<std::string>
   split(const std::string &text, const char separator, const std::string &where)
   {
@@ -272,12 +298,6 @@ namespace Nacre::Text
       message += "?";
     if (candidates.empty())
       return message + " None is known here.";
-    const std::size_t n_shown = std::min<std::size_t>(candidates.size(), 40);
-    for (std::size_t i = 0; i < n_shown; ++i)
-      message += (i == 0 ? " Known: " : ", ") + candidates[i];
-    if (n_shown < candidates.size())
-      message +=
-        " and " + std::to_string(candidates.size() - n_shown) + " others";
-    return message + ".";
+    return message + " Known: " + list(candidates) + ".";
   }
 } // namespace Nacre::Text

@@ -153,7 +153,7 @@ namespace Nacre
         {
           ids[plain(name)].push_back(id);
           if (ids[plain(name)].size() == 1)
-            known.push_back(name);
+            known.push_back(Text::quoted(name));
         }
 
     region_of_id_.assign(mesh.regions.size(), nullptr);

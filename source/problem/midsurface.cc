@@ -445,8 +445,9 @@ namespace Nacre
     std::vector<std::string> known;
     const auto               add = [&](const std::string &name) {
       if (!name.empty() &&
-          std::find(known.begin(), known.end(), name) == known.end())
-        known.push_back(name);
+          std::find(known.begin(), known.end(), Text::quoted(name)) ==
+            known.end())
+        known.push_back(Text::quoted(name));
     };
     for (const SurfaceDescription::Edge &edge : surface_->edges())
       {
@@ -476,10 +477,15 @@ namespace Nacre
         return message + ' ' + why;
       else
         others.push_back(other);
+    if (others.empty())
+      return message;
     const auto near = Text::nearest(name, others, 1);
     if (!near.empty())
       message += ' ' + names.no_edges.at(near.front());
-    return message;
+    for (std::string &other : others)
+      other = Text::quoted(other);
+    return message +
+           " Sets of the file that are no edges: " + Text::list(others) + ".";
   }
 
 

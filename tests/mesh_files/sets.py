@@ -521,6 +521,13 @@ def case_quoted(run):
                     "(0, 0, 0)"}), plain, ("w", "U", "R", "M"))
 
 
+def case_reply_in_quotes(run):
+    """A reply gives names as they are to be written."""
+    mesh = lines_of({"left, clamped": ["1 4"], "a; b": ["2 5"]})
+    run.bad(["unknown edge 'left'", """Known: "left, clamped", boundary.""",
+             """that are no edges: "a; b", """], mesh, {EDGES: "left: clamped"})
+
+
 def case_quote_within(run):
     """A quote in a name is doubled; one alone is an error."""
     mesh = lines_of({'Left 5"': ["1 4"]})

@@ -34,6 +34,14 @@ namespace Nacre::Text
   std::string
   unquoted(const std::string &text);
 
+  /** The reverse: in quotes if a list couldn't hold the name without. */
+  std::string
+  quoted(const std::string &name);
+
+  /** Those of @p names that fit into a message: "a, b and 7 others". */
+  std::string
+  list(const std::vector<std::string> &names);
+
   /**
    * Split at @p separator wherever it stands outside of parentheses and double
    * quotes, trim the parts; an empty text has no parts. `split("a, f(x, y)",

@@ -128,7 +128,7 @@ namespace Nacre
     bool
     is_left(const unsigned int edge) const;
 
-    /** Names of the edges, then that of the rest, in the order of the file. */
+    /** Names of the edges, then that of the rest, quoted where they must be. */
     std::vector<std::string>
     known_edges() const;
 
