@@ -219,15 +219,15 @@ namespace
       overrides = (*values)["set"].as<std::vector<std::string>>();
     Nacre::read_parameters(file, overrides);
     study.prepare(file);
-    const bool restart = values->count("restart") > 0;
-    if (values->count("check") > 0)
+    const bool checks_only = values->count("check") > 0;
+    const bool restart     = values->count("restart") > 0;
+    Nacre::Log log(communicator, checks_only || values->count("quiet") > 0);
+    if (checks_only)
       {
-        Nacre::Log log(communicator, true);
         study.check(log, restart);
         out << file << ": no errors." << std::endl;
         return success;
       }
-    Nacre::Log log(communicator, values->count("quiet") > 0);
     const auto complaint =
       Nacre::BlasCheck::complaint(Nacre::BlasCheck::kernel(),
                                   Nacre::BlasCheck::processor());
