@@ -473,11 +473,9 @@ namespace Nacre
     if (conditions.empty())
       return;
     points_ = PointConstraints(discretization_, conditions, constraints_);
-    // All ranks know these lines: whatever depends on them must not keep
-    // them as free.
-    auto pivots = points_.pivots();
-    std::sort(pivots.begin(), pivots.end());
-    local_lines_.add_indices(pivots.begin(), pivots.end());
+    // All ranks know these lines: whatever depends on their dofs must not take
+    // eliminated ones for free.
+    local_lines_.add_indices(points_.dofs().begin(), points_.dofs().end());
     AffineConstraints<double> all(local_lines_);
     all.merge(constraints_,
               AffineConstraints<double>::no_conflicts_allowed,

@@ -242,15 +242,6 @@ namespace Nacre
       }
   }
 
-  std::vector<types::global_dof_index>
-  PointConstraints::pivots() const
-  {
-    std::vector<types::global_dof_index> dofs;
-    for (const auto &[row, column] : pivots_)
-      dofs.push_back(columns_[column]);
-    return dofs;
-  }
-
   void
   PointConstraints::add_to(AffineConstraints<double> &constraints) const
   {

@@ -101,9 +101,12 @@ namespace Nacre
     void
     add_to(AffineConstraints<double> &constraints) const;
 
-    /** The dofs that the conditions are solved for, the same on all ranks. */
-    std::vector<types::global_dof_index>
-    pivots() const;
+    /** All dofs of the lines, ascending, the same on all ranks. */
+    const std::vector<types::global_dof_index> &
+    dofs() const
+    {
+      return columns_;
+    }
 
     /** The values of the conditions' displacements in @p u; collective. */
     std::vector<double>
