@@ -318,14 +318,11 @@ namespace Nacre
         if (sigma < softest)
           sigma = 0.;
       }
-    attempt.result.kind = step.failure.kind != FailureKind::none ?
-                            step.failure.kind :
-                            FailureKind::no_stable_state;
-    attempt.result.reason =
-      "the dynamic relaxation found no stable state in " +
-      std::to_string(iterations) + " iterations" +
-      (step.failure.text.empty() ? "" :
-                                   ": in the last one " + step.failure.text);
+    attempt.result.kind   = FailureKind::no_stable_state;
+    attempt.result.reason = "the dynamic relaxation found no stable state in " +
+                            std::to_string(iterations) + " iterations";
+    if (!step.failure.text.empty())
+      attempt.result.reason += ", as " + step.failure.text;
     return attempt;
   }
 } // namespace Nacre
