@@ -90,7 +90,7 @@ namespace Nacre
       return deformed_basis(values.frame(q), values.shapes(), q, u, dofs, dof);
     }
 
-    /** The rotation of the material at a point, from its polar decomposition. */
+    /** The rotation of the material at a point, by polar decomposition. */
     Tensor<2, spacedim>
     rotation(const SurfaceFrame<> &frame, const std::array<Vector3, 2> &phi)
     {

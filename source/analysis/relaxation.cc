@@ -98,14 +98,11 @@ namespace Nacre
                       0. :
                       shift_ * system_.product(mass_, du, du) / step.work);
       }
-    result.kind = step.failure.kind != FailureKind::none ?
-                    step.failure.kind :
-                    FailureKind::no_stable_state;
-    result.reason =
-      "the dynamic relaxation found no stable state in " +
-      std::to_string(result.iterations) + " iterations" +
-      (step.failure.text.empty() ? "" :
-                                   ": in the last one " + step.failure.text);
+    result.kind   = FailureKind::no_stable_state;
+    result.reason = "the dynamic relaxation found no stable state in " +
+                    std::to_string(result.iterations) + " iterations";
+    if (!step.failure.text.empty())
+      result.reason += ", as " + step.failure.text;
     return result;
   }
 

@@ -7,7 +7,7 @@
 #include <nacre/forms/shell_operator.h>
 #include <nacre/problem/boundary_conditions.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace Nacre
 {
@@ -47,13 +47,18 @@ namespace Nacre
   ShellOperator::RotationGap
   ShellOperator::largest_rotation_gap(const Vector &u) const
   {
+    const auto &edges = boundary_conditions_.edges();
+    if (std::none_of(edges.begin(), edges.end(), [](const auto &edge) {
+          return edge.second.rotation != nullptr;
+        }))
+      return {};
     run_on_all_ranks(discretization_.communicator(),
                      [&]() { turns_.update(); });
     const auto             kinematics = kinematics_->clone();
     ShellEdgeValues        edge(discretization_);
     dealii::Vector<double> local;
     RotationGap            mine;
-    for (const auto &[id, conditions] : boundary_conditions_.edges())
+    for (const auto &[id, conditions] : edges)
       if (conditions.rotation != nullptr)
         for (const auto &cell :
              discretization_.dof_handler().active_cell_iterators())
