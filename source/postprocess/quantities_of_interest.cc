@@ -501,9 +501,10 @@ namespace Nacre
       "x|y|z|normal|(a, b, c) at (point); maximum displacement; energy; "
       "membrane energy; bending energy; edge energy; reaction x|y|z of EDGE; "
       "moment x|y|z of EDGE [about (point)]; L2 error; H1 error; energy "
-      "error; in dynamics kinetic energy, total energy, momentum x|y|z, "
-      "angular momentum x|y|z about the origin. Units: those of the "
-      "quantity.");
+      "error; in dynamics kinetic energy, total energy, external work, work "
+      "of prescribed motion, dissipation (by mass damping), energy balance "
+      "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
+      "the origin. Units: those of the quantity.");
   }
 
   std::vector<std::string>
