@@ -460,9 +460,10 @@ namespace Nacre
       "SUPPORTS; "
       "moment x|y|z of SUPPORTS [about (point)], SUPPORTS 'EDGE, point (x, y, "
       "z), ...' or 'all', each node once; L2 error; H1 error; energy "
-      "error; in dynamics kinetic energy, total energy, momentum x|y|z, "
-      "angular momentum x|y|z about the origin. Units: those of the "
-      "quantity.");
+      "error; in dynamics kinetic energy, total energy, external work, work "
+      "of prescribed motion, dissipation (by mass damping), energy balance "
+      "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
+      "the origin. Units: those of the quantity.");
     add_parameter("Balance about",
                   balance_text_,
                   "A point '(x, y, z)': the resultants of loads and reactions "
