@@ -130,14 +130,14 @@ namespace Nacre
       for (unsigned int k = 0; k < targets.size(); ++k)
         if (chosen[k])
           {
-            const auto   &condition = between.conditions()[k];
-            const Vector3 u_k       = u == nullptr ?
-                                        Vector3() :
-                                        displacement_of(condition.place, *u, owned);
+            const auto &condition = between.conditions()[k];
+            Vector3     u_k;
+            if (u != nullptr)
+              u_k =
+                Utilities::MPI::sum(displacement_of(condition.place, *u, owned),
+                                    communicator);
             targets[k] =
-              field(condition.place.position,
-                    Utilities::MPI::sum(u_k,
-                                        communicator))[condition.component];
+              field(condition.place.position, u_k)[condition.component];
           }
       between.set_values(targets, v);
       return v;
