@@ -87,7 +87,7 @@ namespace Nacre
                                du,
                                &terms_of_w,
                                integrator_.share());
-    if (mixes_)
+    if (mixes_ && step.failure.kind == FailureKind::none)
       mix(u_f, du);
     return step;
   }
