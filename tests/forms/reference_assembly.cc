@@ -128,11 +128,14 @@ const std::string section = "subsection Section\n"
 void
 test_meshes()
 {
-  Shell shell(section + "subsection Loads\n"
-                        "  set Force per area = 1, x*y, z\n"
-                        "  set Gravity = 0, 0, -10\n"
-                        "end\n");
-  shell.section.set_regions({"", "left", "right"});
+  Shell       shell(section + "subsection Loads\n"
+                              "  set Force per area = 1, x*y, z\n"
+                              "  set Gravity = 0, 0, -10\n"
+                              "end\n");
+  MeshRegions regions;
+  for (const char *const name : {"left", "right"})
+    regions.regions.push_back({{name}, ""});
+  shell.section.set_regions(regions);
   const auto test = [&](const std::string   &name,
                         const Mesh          &mesh,
                         const Element       &element,

@@ -133,8 +133,7 @@ namespace
                    u,
                    folder,
                    name,
-                   counter,
-                   0.5 * counter);
+                   {counter, 0.5 * counter, std::to_string(counter)});
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
       return;
     check_file(name, n_cells);
