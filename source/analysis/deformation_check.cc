@@ -277,11 +277,12 @@ namespace Nacre
   }
 
   std::string
-  find_torn_edge(const ShellOperator &shell_operator, const TrilinosVector &u)
+  find_torn_edge(const ShellOperator  &shell_operator,
+                 const TrilinosVector &u,
+                 const double          allowed)
   {
     const auto gap = shell_operator.largest_rotation_gap(u);
-    // The edge's moment grows like sin(2 angle): up to 45 degrees.
-    if (gap.angle <= 0.25 * numbers::PI)
+    if (gap.angle <= allowed)
       return "";
     std::ostringstream text;
     text << "the edge at (" << gap.position

@@ -200,8 +200,11 @@ namespace Nacre
                                     system_.with_ghosts(before->motion.u),
                                     u) :
         find_impossible_state(discretization, u);
+    const double allowed_gap = parameters_.type == AnalysisType::dynamic ?
+                                 0.75 * numbers::PI :
+                                 0.5 * numbers::PI;
     if (reason.empty())
-      reason = find_torn_edge(system_.shell_operator(), u);
+      reason = find_torn_edge(system_.shell_operator(), u, allowed_gap);
     attempt.result.converged = reason.empty();
     attempt.result.kind      = FailureKind::impossible_deformation;
   }

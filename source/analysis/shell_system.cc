@@ -355,7 +355,7 @@ namespace Nacre
   {
     std::string where = find_impossible_state(discretization_, u);
     if (where.empty())
-      where = find_torn_edge(shell_operator_, u);
+      where = find_torn_edge(shell_operator_, u, 0.5 * numbers::PI);
     std::ostringstream text;
     text << "the internal forces are infinite or not a number";
     if (!where.empty())

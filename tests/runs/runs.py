@@ -427,7 +427,7 @@ def check_finds_what_a_run_finds(folder):
          {"Boundary_conditions__Edges": "u=0: clamped; v=0: z = 1"}),
         ("Loads/Point forces", {"Loads__Point_forces": "(3, 0, 0): 0, 0, 1"}),
         ("Boundary conditions/Points",
-         {"Boundary_conditions__Points": "(0.33, 0.1, 0): z = 0"}),
+         {"Boundary_conditions__Points": "(0.33, 0.1, 0.2): z = 0"}),
         ("Quantities/Quantities, 'w'",
          {"Quantities__Quantities": "w = displacement z at (3, 0, 0)"}),
         ("Section/Thickness", {"Section__Thickness": "0.01*(x - 0.5)"}),
@@ -451,11 +451,11 @@ def check_finds_what_a_run_finds(folder):
 def check_of_all_cases(folder):
     """What is wrong with the last case of a study only."""
     folder.write("case.prm", SWINGING)
-    folder.succeed("case.prm", "--check", Study__Refinements="1",
-                   Boundary_conditions__Points="(0.53125, 0.1, 0): z = 0")
-    folder.fail("case.prm", "--check", Study__Refinements="1, 0",
-                Boundary_conditions__Points="(0.53125, 0.1, 0): z = 0",
-                expect=("no node lies there",))
+    load = "0, 0, log(h - 0.005)"
+    folder.succeed("case.prm", "--check", Study__Thicknesses="0.01",
+                   Loads__Force_per_area=load)
+    folder.fail("case.prm", "--check", Study__Thicknesses="0.01, 0.004",
+                Loads__Force_per_area=load, expect=("Loads/Force per area",))
 
 
 @test(1)

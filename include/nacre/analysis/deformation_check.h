@@ -44,13 +44,16 @@ namespace Nacre
 
   /**
    * Why the ghosted displacement @p u tears the shell off a prescribed
-   * rotation: the normal of an edge departs by more than 45 degrees from it.
-   * Beyond, the moment that pulls it back falls again, and turns over at 90
-   * degrees. Empty if nothing is wrong. Collective.
+   * rotation: the normal of an edge departs from it by more than @p allowed
+   * (rad). The moment that pulls it back grows like the sine of twice the
+   * angle and turns over at 90 degrees: beyond, no equilibrium is one, but a
+   * coarse cell that swings may pass there and come back. Empty if nothing is
+   * wrong. Collective.
    */
   std::string
   find_torn_edge(const ShellOperator                 &shell_operator,
-                 const TrilinosWrappers::MPI::Vector &u);
+                 const TrilinosWrappers::MPI::Vector &u,
+                 const double                         allowed);
 } // namespace Nacre
 
 #endif
