@@ -552,6 +552,49 @@ def linear_displacements_beyond_the_shell(folder):
           and len(found) <= 2, f"no warning: {text}")
 
 
+TWISTED = """\
+subsection Mid-surface
+  set Surface = expression
+  set Subdivisions = 24, 4
+  subsection expression
+    set Position = u, v*cos(pi/24*u), v*sin(pi/24*u)
+    set Range u = 0, 12
+    set Range v = -0.55, 0.55
+  end
+end
+subsection Section
+  set Young's modulus = 29e6
+  set Poisson's ratio = 0.22
+  set Thickness = 0.00032
+end
+subsection Boundary conditions
+  set Edges = u=0: clamped
+end
+subsection Loads
+  set Edge forces = u=1: 0, 1e-9/1.1, 0
+end
+subsection Study
+  set Refinements = 1
+  set Write VTU = false
+end
+"""
+
+
+@test(1)
+def lost_digits(folder):
+    """The warning of an ill-conditioned matrix names the likely cause first."""
+    folder.write("case.prm", TWISTED)
+    solver = {"Linear_solver__Solver": "direct"}
+    thin = warnings_in(folder.succeed("case.prm", **solver))
+    check(thin and re.search(r"of their size: the shell is 37\d\d\d times as "
+                             r"long as thick", thin[0]), f"thin: {thin}")
+    long = warnings_in(folder.succeed(
+        "case.prm", **solver, **{"Section__Thickness": "0.1",
+                                 "Mid-surface__Subdivisions": "6, 60"}))
+    check(long and re.search(r"of their size: cells are up to \d+\.\d times as "
+                             r"long as wide", long[0]), f"long: {long}")
+
+
 @test(1)
 def names_of_fields(folder):
     """Files tell degree, refinement, and what else varies."""
