@@ -31,8 +31,8 @@ namespace Nacre
     }
 
     /**
-     * Loads of one kind from "edge[, edge]: value; ...", on every boundary id of
-     * the edges; @p Load is made of (value, where, constants, variables).
+     * Loads of one kind from "edge[, edge]: value; ...", on every boundary id
+     * of the edges; @p Load is made of (value, where, constants, variables).
      */
     template <typename Load>
     std::map<types::boundary_id, Load>

@@ -76,7 +76,7 @@ namespace
         for (const unsigned int f : cell->face_indices())
           if (!cell->at_boundary(f) && cell->neighbor(f)->is_active())
             {
-              // The part of the neighbour's face: all, or a half if it is coarser.
+              // The part of the neighbour's face: a half if it is coarser.
               const auto   neighbor = cell->neighbor(f);
               unsigned int g        = 0;
               double       begin = 0., size = 1.;

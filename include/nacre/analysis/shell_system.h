@@ -238,7 +238,7 @@ namespace Nacre
     void
     condense(const AffineConstraints<double> &constraints, Vector &r) const;
 
-    /** Constraints of du such that end + du / share fulfils those of the time. */
+    /** Constraints of du such that end + du / share fulfils the time's. */
     AffineConstraints<double>
     increment_constraints(const Vector &ghosted_end, const double share) const;
 

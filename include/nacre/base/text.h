@@ -77,8 +77,8 @@ namespace Nacre::Text
 
   /**
    * Split "key = value" at the first '=' outside of parentheses and quotes that
-   * isn't part of a comparison (==, <=, >=, !=). Without one, the value is empty and
-   * `second` is "". Both sides are trimmed.
+   * isn't part of a comparison (==, <=, >=, !=). Without one, the value is
+   * empty and `second` is "". Both sides are trimmed.
    */
   std::pair<std::string, std::string>
   key_and_value(const std::string &text);

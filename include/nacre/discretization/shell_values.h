@@ -41,7 +41,7 @@ namespace Nacre
                     const bool             tied);
 
 
-    /** Frames and the rows of the linear strains; of tying frames a_cov only. */
+    /** Frames and rows of the linear strains; of tying frames a_cov only. */
     void
     reinit(const Triangulation<dim, spacedim>::cell_iterator &cell);
 
@@ -165,8 +165,9 @@ namespace Nacre
 
   /**
    * Frames and shape functions at the points of an edge, on both sides:
-   * FEInterfaceValues for shells, computed from the nodes' positions alone. Side 0 is K^-, side 1 is K^+; on the
-   * boundary and for a single cell there is side 0 only.
+   * FEInterfaceValues for shells, computed from the nodes' positions alone.
+   * Side 0 is K^-, side 1 is K^+; on the boundary and for a single cell there
+   * is side 0 only.
    *
    * Conventions, here and nowhere else: jump = plus - minus; the conormal
    * nu^- = n^-, nu^+ = -n^+, n being outward of its own cell; sigma = -1 where

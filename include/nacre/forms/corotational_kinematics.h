@@ -21,12 +21,13 @@ namespace Nacre
    *
    * f = sum w R B^T D B (R^T x - X0).
    *
-   * The frozen tangent (47) is R B^T D B R^T; the consistent tangent is the exact derivative of f, dR/du of cells and
-   * edges included. Since f depends on the nodes only through derivatives at
-   * points, f_a = sum_r N_r[a] g_r with scalar rows N_r of shape functions
-   * (N,1 and N,2 at tying points, the bending strain's at the others), its
-   * derivative is the dense product of the rows N_r[a] and dg_r[c][j], which
-   * takes no more operations than the linear B^T D B.
+   * The frozen tangent (47) is R B^T D B R^T; the consistent tangent is the
+   * exact derivative of f, dR/du of cells and edges included. Since f depends
+   * on the nodes only through derivatives at points, f_a = sum_r N_r[a] g_r
+   * with scalar rows N_r of shape functions (N,1 and N,2 at tying points, the
+   * bending strain's at the others), its derivative is the dense product of the
+   * rows N_r[a] and dg_r[c][j], which takes no more operations than the linear
+   * B^T D B.
    */
   class CorotationalKinematics : public Kinematics
   {
@@ -131,7 +132,7 @@ namespace Nacre
       unsigned int              n_membrane_rows = 0;
     };
 
-    /** The terms at u_, or, if in_step_, of the step of which u_ is the mean. */
+    /** The terms at u_; if in_step_, of the step of which u_ is the mean. */
     void
     add_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
              LocalTerms                                        &terms);

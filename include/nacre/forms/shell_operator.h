@@ -48,7 +48,7 @@ namespace Nacre
       return penalty_;
     }
 
-    /** Set up the sparsity pattern of @p matrix, neighbours of cells included. */
+    /** Set up the pattern of @p matrix, neighbours of cells included. */
     void
     reinit_matrix(const AffineConstraints<double> &constraints,
                   Matrix                          &matrix) const;

@@ -38,7 +38,7 @@ namespace Nacre
     types::material_id region_;
   };
 
-  /** Stiffness of a section in the covariant basis, Voigt [resultant][strain]. */
+  /** Stiffness of a section, covariant basis, Voigt [resultant][strain]. */
   struct SectionStiffness
   {
     /** H_n: membrane forces n^ab from membrane strains. */

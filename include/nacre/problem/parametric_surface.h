@@ -162,7 +162,7 @@ namespace Nacre
     ParametricSurface(SurfaceDescription &&description,
                       const std::string   &where);
 
-    /** Position (length) of @p unit in the reference cell of the coarse cell. */
+    /** Position (length) of @p unit in the coarse cell's reference cell. */
     Point<3>
     position(const unsigned int coarse_cell, const Point<2> &unit) const;
 
