@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/time_integrator.h>
-#include <nacre/base/mutation.h>
 
 namespace Nacre
 {
@@ -66,7 +65,7 @@ namespace Nacre
     // Newmark's relations
     change.add(-dt, start.v);
     end.a.sadd(1. - 1. / (2. * beta_), 1. / (beta_ * dt * dt), change);
-    const double gamma = NACRE_MUTABLE(newmark_gamma, gamma_, 0.9 * gamma_);
+    const double gamma = gamma_;
     end.v.add(dt * (1. - gamma), start.a, dt * gamma, end.a);
     return end;
   }

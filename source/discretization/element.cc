@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/discretization/element.h>
 #include <nacre/elements/fe_serendipity.h>
 
@@ -69,9 +68,7 @@ namespace Nacre
   {
     if (type == ElementType::triangle)
       return QWitherdenVincentSimplex<dim>(1, false);
-    return NACRE_MUTABLE(reduced_rule,
-                         Quadrature<dim>(QGauss<dim>(degree)),
-                         Quadrature<dim>(QGaussLobatto<dim>(degree)));
+    return QGauss<dim>(degree);
   }
 
   Quadrature<1>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/discretization/membrane_tying.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -122,8 +121,7 @@ namespace Nacre
              {0.5 - std::sqrt(1. / 12.), 0.5 + std::sqrt(1. / 12.)})
           {
             const Point<dim> x = start + t * (end - start);
-            data[condition].emplace_back(add_sample(x, direction),
-                                         NACRE_MUTABLE(tied_edge, 1., 1.01));
+            data[condition].emplace_back(add_sample(x, direction), 1.);
             for (unsigned int k = 0; k < 3; ++k)
               for (unsigned int v = 0; v < 3; ++v)
                 conditions(condition, 3 * k + v) =
@@ -141,9 +139,8 @@ namespace Nacre
             Sample sample{static_cast<unsigned int>(points_.size() - 1),
                           {{0., 0., 0.}}};
             sample.direction[v] = 1.;
-            data[condition + v].emplace_back(
-              samples_.size(),
-              NACRE_MUTABLE(tied_mean, 2., 2.02) * rule.weight(q));
+            data[condition + v].emplace_back(samples_.size(),
+                                             2. * rule.weight(q));
             samples_.push_back(sample);
           }
       }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/forms/averaged_normal_kinematics.h>
 #include <nacre/mechanics/edge_frame.h>
 #include <nacre/mechanics/shell_strain.h>
@@ -32,7 +31,7 @@ namespace Nacre
     const auto edge_frame =
       EdgeFrame::make_edge_frame(cross_product_3d(edge.conormal(0, q), t_minus),
                                  t_minus,
-                                 NACRE_MUTABLE(averaged_mean, t_plus, t_minus));
+                                 t_plus);
 
     stiffness_ = 0.;
     normal_jump_.reinit(3, edge.n_dofs());
@@ -51,19 +50,15 @@ namespace Nacre
     const auto &frame  = edge.frame(side, q);
     const auto &shapes = edge.shapes(side);
     const auto  N_hat  = EdgeFrame::jump_matrix(edge_frame);
-    const auto p = EdgeFrame::strain_transformation(NACRE_MUTABLE(averaged_push,
-                                                                  frame,
-                                                                  edge_frame),
-                                                    edge_frame);
+    const auto  p      = EdgeFrame::strain_transformation(frame, edge_frame);
     // jump = plus - minus; the neighbour of the opposite orientation enters
     // with -t0 and -rho.
-    const double sign =
-      side == 0 ? NACRE_MUTABLE(averaged_jump_minus, -1., 1.) : 1.;
-    const double sigma = NACRE_MUTABLE(averaged_sigma, edge.sigma(side, q), 1.);
+    const double sign  = side == 0 ? -1. : 1.;
+    const double sigma = edge.sigma(side, q);
     // Regions of different sections may meet here.
     const auto H_m = section.stiffness(edge_frame, edge.point(q, side)).bending;
     stiffness_ += 0.5 * H_m;
-    const auto stiffness = NACRE_MUTABLE(averaged_half, 0.5, 1.) * sigma * H_m;
+    const auto stiffness = 0.5 * sigma * H_m;
 
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       {
@@ -100,11 +95,9 @@ namespace Nacre
                                       const double       penalty,
                                       const double       dx)
   {
-    const auto  &jump        = point_.normal_jump();
-    const auto  &moment      = point_.mean_moment();
-    const auto  &H           = point_.stiffness();
-    const double consistency = NACRE_MUTABLE(averaged_consistency, dx, -dx);
-    const double symmetry    = NACRE_MUTABLE(averaged_symmetry, dx, -dx);
+    const auto &jump   = point_.normal_jump();
+    const auto &moment = point_.mean_moment();
+    const auto &H      = point_.stiffness();
     for (unsigned int i = 0; i < jump.n(); ++i)
       for (unsigned int v = 0; v < 3; ++v)
         {
@@ -115,8 +108,8 @@ namespace Nacre
             dx * penalty *
               (H[v][0] * jump(0, i) + H[v][1] * jump(1, i) +
                H[v][2] * jump(2, i)) +
-            consistency * moment(v, i);
-          normal_trial_rows_(row + 3, i) = symmetry * jump(v, i);
+            dx * moment(v, i);
+          normal_trial_rows_(row + 3, i) = dx * jump(v, i);
         }
   }
 
@@ -160,11 +153,9 @@ namespace Nacre
       {
         point_.reinit(edge, q, section_);
         const double dx = edge.JxW(q);
-        const double weighted =
-          NACRE_MUTABLE(averaged_penalty, penalty, -penalty);
         if (terms.wants_tangent)
-          fill_rows(q, weighted, dx);
-        add_point_residual(weighted, dx, u, terms);
+          fill_rows(q, penalty, dx);
+        add_point_residual(penalty, dx, u, terms);
       }
     if (terms.wants_tangent)
       normal_test_rows_.Tmmult(terms.tangent, normal_trial_rows_, true);

@@ -8,6 +8,17 @@
 
 namespace Nacre
 {
+  std::pair<Tensor<1, spacedim>, Tensor<1, spacedim>>
+  prescribed_frame(const Tensor<1, spacedim> &nu,
+                   const Tensor<1, spacedim> &t0,
+                   const PrescribedRotation  &rotation)
+  {
+    const double sine   = std::sin(rotation.angle);
+    const double cosine = std::cos(rotation.angle);
+    return {rotation.turn * (cosine * nu + sine * t0),
+            rotation.turn * (cosine * t0 - sine * nu)};
+  }
+
   namespace
   {
     /** Displacements of a side's nodes; zero if @p u is empty. */
@@ -190,10 +201,7 @@ namespace Nacre
           Tensor<1, spacedim> unit;
           unit[i] = 1.;
           columns[i] =
-            (NACRE_MUTABLE(edge_tangent_turn, 1., 0.) *
-               cross_product_3d(d, unit) +
-             NACRE_MUTABLE(edge_tangent_spin, 1., 0.) * spin[i] * d) /
-            point.stretch();
+            (cross_product_3d(d, unit) + spin[i] * d) / point.stretch();
         }
       return columns;
     }
@@ -276,9 +284,8 @@ namespace Nacre
         for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
           {
             const auto  &dN   = shapes.gradient(q, b);
-            const double spin = NACRE_MUTABLE(edge_normal_spin, 1., 0.) *
-                                (side.spin[0] * dN[0] + side.spin[1] * dN[1]);
-            const double e = s == 0 ? d_1 * dN[0] + d_2 * dN[1] : 0.;
+            const double spin = side.spin[0] * dN[0] + side.spin[1] * dN[1];
+            const double e    = s == 0 ? d_1 * dN[0] + d_2 * dN[1] : 0.;
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const unsigned int j = edge.dof(s, b, c);

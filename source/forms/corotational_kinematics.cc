@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/base/simd.h>
 #include <nacre/forms/corotational_kinematics.h>
 
@@ -294,8 +293,7 @@ namespace Nacre
                              {{cross_product_3d(deformed.t0, polar.q_cov[0]),
                                cross_product_3d(deformed.t0, polar.q_cov[1])}});
             const double spin_strain =
-              NACRE_MUTABLE(polar_spin_strain, 1., 0.) *
-              (turned[0] * deformed.a_cov[0] + turned[1] * deformed.a_cov[1]);
+              turned[0] * deformed.a_cov[0] + turned[1] * deformed.a_cov[1];
             for (unsigned int g = 0; g < 2; ++g)
               vectors[g] += spin_strain * polar.spin[g];
           }
@@ -343,10 +341,8 @@ namespace Nacre
           const Vector3 r =
             N[alpha][0] * polar.q_cov[0] + N[alpha][1] * polar.q_cov[1];
           for (unsigned int g = 0; g < 2; ++g)
-            X[alpha][g] =
-              (r * deformed.a_con[g]) * outer_product(t, t) +
-              NACRE_MUTABLE(polar_spin, 1., 0.) *
-                outer_product(cross_product_3d(t, r), polar.spin[g]);
+            X[alpha][g] = (r * deformed.a_con[g]) * outer_product(t, t) +
+                          outer_product(cross_product_3d(t, r), polar.spin[g]);
         }
       return X;
     }
@@ -436,8 +432,7 @@ namespace Nacre
             // dt = -phi^g (t . du,g)
             Vector3 turn;
             if (is_consistent())
-              turn = NACRE_MUTABLE(normal_turn, -1., 0.) *
-                     (dN[0] * phi[0] + dN[1] * phi[1]);
+              turn = -(dN[0] * phi[0] + dN[1] * phi[1]);
             for (unsigned int v = 0; v < 3; ++v)
               {
                 const unsigned int r = first_row + 3 * q + v;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/forms/hinge_form.h>
 #include <nacre/mechanics/shell_strain.h>
 
@@ -16,7 +15,7 @@ namespace Nacre
     const auto  &frame  = edge.frame(side, q);
     const auto  &shapes = edge.shapes(side);
     const auto   nu     = edge.conormal(side, q);
-    const double sigma  = NACRE_MUTABLE(sigma, edge.sigma(side, q), 1.);
+    const double sigma  = edge.sigma(side, q);
 
     // Components of the dyad nu nu, and of the moment it cuts out:
     // m_nn = nu . H_m rho . nu = (H_m nu nu) : rho.
@@ -53,15 +52,13 @@ namespace Nacre
                const double           penalty)
   {
     // The mirror image of a boundary cell doubles the penalty.
-    const double factor =
-      edge.n_sides() == 2 ? 1. : NACRE_MUTABLE(boundary_two, 2., 1.);
-    const double dx = edge.JxW(q);
+    const double factor = edge.n_sides() == 2 ? 1. : 2.;
+    const double dx     = edge.JxW(q);
 
     HingeFluxes fluxes;
-    fluxes.penalty =
-      NACRE_MUTABLE(penalty_sign, 1., -1.) * factor * penalty * stiffness * dx;
-    fluxes.symmetry    = NACRE_MUTABLE(symmetry_sign, -1., 1.) * dx;
-    fluxes.consistency = NACRE_MUTABLE(consistency_sign, -1., 1.) * dx;
+    fluxes.penalty     = factor * penalty * stiffness * dx;
+    fluxes.symmetry    = -dx;
+    fluxes.consistency = -dx;
     return fluxes;
   }
 
@@ -74,12 +71,12 @@ namespace Nacre
     mean_moment_.assign(edge.n_dofs(), 0.);
     stiffness_            = 0.;
     const bool   interior = (edge.n_sides() == 2);
-    const double half     = interior ? NACRE_MUTABLE(half, 0.5, 1.) : 1.;
+    const double half     = interior ? 0.5 : 1.;
     for (unsigned int side = 0; side < edge.n_sides(); ++side)
       {
         side_.reinit(edge, side, q, section);
         // jump = plus - minus
-        const double sign = side == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.;
+        const double sign = side == 0 ? -1. : 1.;
         for (unsigned int a = 0; a < side_.rotation.size(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/forms/load_terms.h>
 #include <nacre/problem/loads.h>
 
@@ -116,8 +115,7 @@ namespace Nacre
                 {
                   const unsigned int d = (c + 1) % 3, e = (c + 2) % 3;
                   const double       w = p * shapes.value(q, a);
-                  terms.tangent(values.dof(a, c), values.dof(b, e)) -=
-                    NACRE_MUTABLE(following_tangent, 1., -1.) * w * m[d];
+                  terms.tangent(values.dof(a, c), values.dof(b, e)) -= w * m[d];
                   terms.tangent(values.dof(a, c), values.dof(b, d)) += w * m[e];
                 }
           }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
 #include <nacre/base/text.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 
@@ -264,10 +263,10 @@ namespace Nacre
     const double E  = youngs_modulus(point);
     const double h  = thickness(point);
     const double nu = poissons_ratio(point);
-    const auto   H  = isotropic_stiffness(frame, NACRE_MUTABLE(nu, nu, -nu));
+    const auto   H  = isotropic_stiffness(frame, nu);
     // (8), (9); the report's (31) prints (1 - nu^2)^2 by mistake.
     const double membrane = E * h / (1. - nu * nu);
-    const double bending  = membrane * h * h / NACRE_MUTABLE(twelve, 12., 10.);
+    const double bending  = membrane * h * h / 12.;
     return {membrane * H, bending * H};
   }
 } // namespace Nacre

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
-#include <nacre/base/mutation.h>
 #include <nacre/forms/hinge_form.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
@@ -278,8 +277,7 @@ namespace Nacre
         }
       for (unsigned int q = 0; q < n; ++q)
         for (unsigned int r = 0; r < n; ++r)
-          forces[q] += NACRE_MUTABLE(estimator_twist, 1., -1.) *
-                       edge_rule_.weight(q) / edge_.JxW(q) *
+          forces[q] += edge_rule_.weight(q) / edge_.JxW(q) *
                        differentiation_(q, r) * twist[r];
       return forces;
     }
@@ -429,17 +427,17 @@ namespace Nacre
             add(cells[side], residual, share * factor, product);
           };
           add_part(Residual::traction,
-                   NACRE_MUTABLE(estimator_traction, 0.25, 0.) * k,
+                   0.25 * k,
                    [&](const unsigned int f, const unsigned int g) {
                      return vectors_[f] * (W * vectors_[g]);
                    });
           add_part(Residual::moment,
-                   NACRE_MUTABLE(estimator_moment, 0.25, 0.) * k * k * k * W_n,
+                   0.25 * k * k * k * W_n,
                    [&](const unsigned int f, const unsigned int g) {
                      return moments_[f] * moments_[g];
                    });
           add_part(Residual::rotation,
-                   NACRE_MUTABLE(estimator_rotation, 1., 0.) * eta * stiffness_,
+                   eta * stiffness_,
                    [&](const unsigned int f, const unsigned int g) {
                      return rotations_[f] * rotations_[g];
                    });

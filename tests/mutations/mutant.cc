@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mutation.h>
+#include <nacre_mutant.h>
 
 #include <cstdlib>
 #include <cstring>

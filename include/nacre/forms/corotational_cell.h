@@ -4,7 +4,6 @@
 #ifndef nacre_forms_corotational_cell_h
 #define nacre_forms_corotational_cell_h
 
-#include <nacre/base/mutation.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/corotational_strain.h>
 #include <nacre/mechanics/step_differences.h>

@@ -4,7 +4,6 @@
 #ifndef nacre_forms_corotational_edge_h
 #define nacre_forms_corotational_edge_h
 
-#include <nacre/base/mutation.h>
 #include <nacre/forms/corotational_cell.h>
 #include <nacre/forms/hinge_form.h>
 #include <nacre/forms/kinematics.h>
@@ -19,17 +18,10 @@ namespace Nacre
    * @p rotation: by its angle about the edge, which moves the conormal towards
    * the normal, then with the turn of the edge.
    */
-  inline std::pair<Tensor<1, spacedim>, Tensor<1, spacedim>>
+  std::pair<Tensor<1, spacedim>, Tensor<1, spacedim>>
   prescribed_frame(const Tensor<1, spacedim> &nu,
                    const Tensor<1, spacedim> &t0,
-                   const PrescribedRotation  &rotation)
-  {
-    const double sine =
-      NACRE_MUTABLE(prescribed_sign, 1., -1.) * std::sin(rotation.angle);
-    const double cosine = std::cos(rotation.angle);
-    return {rotation.turn * (cosine * nu + sine * t0),
-            rotation.turn * (cosine * t0 - sine * nu)};
-  }
+                   const PrescribedRotation  &rotation);
 
   /**
    * The hinge form in the frame that turns with the edge, at one point:
@@ -258,9 +250,8 @@ namespace Nacre
       const auto  du    = displacement_gradient(edge.shapes(s), q, u);
       side.deformed =
         make_surface_frame<Number>(a_cov[0] + du[0], a_cov[1] + du[1], {});
-      side.jump_factor =
-        s == 0 ? NACRE_MUTABLE(jump_minus, -1., 1.) : 1.; // plus - minus
-      side.mean_factor = n_sides_ == 2 ? NACRE_MUTABLE(half, 0.5, 1.) : 1.;
+      side.jump_factor = s == 0 ? -1. : 1.; // plus - minus
+      side.mean_factor = n_sides_ == 2 ? 0.5 : 1.;
       side.lambda      = edge.sigma(s, q) * edge.conormal(s, q);
       side.mu          = -side.hinge.curvature_moment * side.hinge.t0;
       for (unsigned int a = 0; a < u.size(); ++a)
@@ -395,10 +386,9 @@ namespace Nacre
       for (unsigned int g = 0; g < 2; ++g)
         {
           // d(j |e|) / (j |e|)
-          const Vector scale = NACRE_MUTABLE(moment_stretch, 1., 0.) *
-                               (phi_con[g] + tau_[g] * stretch);
-          Vector dnu_1 = (-scale_ * tau_[g]) * phi[1] - nu_[0] * scale;
-          Vector dnu_2 = (scale_ * tau_[g]) * phi[0] - nu_[1] * scale;
+          const Vector scale = phi_con[g] + tau_[g] * stretch;
+          Vector       dnu_1 = (-scale_ * tau_[g]) * phi[1] - nu_[0] * scale;
+          Vector       dnu_2 = (scale_ * tau_[g]) * phi[0] - nu_[1] * scale;
           (g == 0 ? dnu_2 : dnu_1) += (g == 0 ? 1. : -1.) * scale_ * e_;
           // dt = -phi^g (t . d(phi,g))
           X[0][g] = m_ * (outer_product(t, dnu_1) -
