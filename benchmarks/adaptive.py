@@ -9,7 +9,8 @@
 Runs prm/benchmarks/adaptive_CASE.prm twice for each degree, as it is and with
 all cells refined, and writes into FOLDER (output/adaptive) the tables of both,
 CASE.md with the degrees of freedom and the seconds that each takes to an error
-of a quantity, and to an estimated one, and CASE.png. The seconds of an adaptive mesh are those of all meshes before it
+of a quantity, and to an estimated one, and CASE.png. The seconds of an
+adaptive mesh are those of all meshes before it
 and of all estimates; those of a global one are its own, without an estimate.
 Between two meshes, dofs and seconds are interpolated in logarithms, and an
 error counts as reached when no finer mesh exceeds it again.
@@ -44,7 +45,8 @@ def run(nacre, folder, case, degree, everywhere, max_dofs):
         settings = settings + ["Adaptive refinement/Max dofs="
                                f"{max_dofs or 25000}"]
     for override in [f"Study/Name={name}", f"Study/Output folder={folder}",
-                     f"Study/Degrees={degree}", "Study/Write VTU=false"] + settings:
+                     f"Study/Degrees={degree}",
+                     "Study/Write VTU=false"] + settings:
         command += ["--set", override]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     for suffix in ("txt", "tex", "used.prm"):  # the .csv holds it all
@@ -53,7 +55,8 @@ def run(nacre, folder, case, degree, everywhere, max_dofs):
     with open(pathlib.Path(folder, name + ".csv"), newline="",
               encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            own = sum(float(row[c]) for c in ("setup_s", "assembly_s", "solve_s"))
+            own = sum(float(row[c])
+                      for c in ("setup_s", "assembly_s", "solve_s"))
             if not everywhere:
                 own += float(row["estimate_s"])
             rows.append((int(row["dofs"]), before + own,
@@ -137,7 +140,8 @@ def plot(path, quantity, results):
 
 def main():
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("nacre")
     parser.add_argument("-o", "--output", default="output/adaptive")
     parser.add_argument("--cases", default=",".join(CASES))

@@ -6,8 +6,9 @@
   a sibling folder on its floor nor of a higher floor.
 * Include guards are nacre_<folder>_<file>_h.
 * Each source file begins with the SPDX line; none exceeds 600 lines.
+* No line of a source, a script, or a file of CMake is longer than 80 columns.
 
-Usage: scripts/check_includes.py [project folder]
+Usage: scripts/check_sources.py [project folder]
 Lists offenders and exits with 1 if there are any. Needs Python only.
 """
 
@@ -27,10 +28,12 @@ FLOORS = [
 FLOOR_OF = {name: floor for floor, names in enumerate(FLOORS) for name in names}
 SPDX = "SPDX-License-Identifier: LGPL-2.1-or-later"
 MAX_LINES = 600
+MAX_COLUMNS = 80
+TEXT_SUFFIXES = (".h", ".cc", ".py", ".cmake")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")', re.MULTILINE)
 
 
-def check_includes(root, path, folder, text):
+def check_sources(root, path, folder, text):
     """Messages about the include directives of one library file."""
     if folder not in FLOOR_OF:
         return [f"folder '{folder}' is on no floor: add it to FLOORS and to "
@@ -87,14 +90,21 @@ def check_file(root, path):
     if relative[0] == "include":
         # include/nacre/<folder>/<file>.h
         folder = relative[2] if len(relative) == 4 else "/".join(relative[2:-1])
-        messages += check_includes(root, path, folder, text)
+        messages += check_sources(root, path, folder, text)
         messages += check_guard(path, folder, text)
     elif relative[0] == "source":
         folder = "/".join(relative[1:-1])
-        messages += check_includes(root, path, folder, text)
+        messages += check_sources(root, path, folder, text)
         if path.suffix == ".h":
             messages += check_guard(path, folder, text)
     return messages
+
+
+def check_columns(path):
+    """A message for each line that is too long."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return [f"{number}: {len(line)} columns, at most {MAX_COLUMNS}"
+            for number, line in enumerate(lines, 1) if len(line) > MAX_COLUMNS]
 
 
 def main():
@@ -104,14 +114,24 @@ def main():
                    for path in (root / top).rglob("*")
                    if path.suffix in (".h", ".cc"))
     if not files:
-        sys.exit(f"check_includes: no C++ file below {root}")
+        sys.exit(f"check_sources: no C++ file below {root}")
     offences = [f"{path.relative_to(root)}:{message}"
                 for path in files for message in check_file(root, path)]
+    texts = [path for top in ("include", "source", "tests", "benchmarks",
+                              "examples", "scripts", "cmake")
+             for path in sorted((root / top).rglob("*"))
+             if path.is_file() and (path.suffix in TEXT_SUFFIXES
+                                    or path.name == "CMakeLists.txt"
+                                    or top == "scripts")
+             and "__pycache__" not in path.parts]
+    offences += [f"{path.relative_to(root)}:{message}"
+                 for path in texts + [root / "CMakeLists.txt"]
+                 for message in check_columns(path)]
     if offences:
         print("\n".join(offences), file=sys.stderr)
-        sys.exit(f"check_includes: {len(offences)} offences in "
+        sys.exit(f"check_sources: {len(offences)} offences in "
                  f"{len(files)} files")
-    print(f"check_includes: {len(files)} files keep to the floors")
+    print(f"check_sources: {len(files)} files keep to the floors")
 
 
 if __name__ == "__main__":

@@ -106,7 +106,8 @@ def triangles(mesh, n):
     result.nodes, result.lines = mesh.nodes, mesh.lines
     result.cell_groups = mesh.cell_groups
     result.line_groups = mesh.line_groups
-    for k, (name, (a, b, c, d, ab, bc, cd, da, centre)) in enumerate(mesh.cells):
+    for k, (name, nodes) in enumerate(mesh.cells):
+        a, b, c, d, ab, bc, cd, da, centre = nodes
         if (k % n + k // n) % 2 == 0:
             halves = [[a, b, c, ab, bc, centre], [a, c, d, centre, cd, da]]
         else:

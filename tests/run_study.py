@@ -4,7 +4,8 @@
 """Run a parameter file in a temporary folder and check its table.
 
   run_study.py NACRE FILE.prm [--set "Section/Parameter=value"]... [--ranks N]
-               [--compare-ranks N]... [--compare-set "Section/Parameter=value"]...
+               [--compare-ranks N]...
+               [--compare-set "Section/Parameter=value"]...
                --expect "[any] ROWS: CONDITION"...
 
 An expectation is checked on the rows of the .csv for which ROWS holds: on all
@@ -13,7 +14,7 @@ row, and if a value that it uses is missing or not finite. ROWS (`all` for
 every row) and CONDITION are Python expressions of
   the columns       degree, eta, dofs, ratio, rate_w, ...; numbers, or texts as
                     eta == "default"
-  step, last        the row's number, from 0, and whether it is the finest, among
+  step, last        the row's number, from 0, and if it is the finest, among
                     the rows of its degree, eta and thickness
   listed(a, b, ...) the value number `step` of the list
   at(NAME, thickness=1e-1, ...)
@@ -28,7 +29,8 @@ for example
   --expect "eta == 5: abs(ratio - listed(.994, .999, .9998)) <= 2e-3"
 
 --compare-ranks N runs the file on N ranks too and compares all columns but the
-CPU seconds, memory, iterations and rates with those of the first run, to the relative --tolerance.
+CPU seconds, memory, iterations and rates with those of the first run, to the
+relative --tolerance.
 --compare-set does so with a run of another value of a parameter.
 """
 
@@ -67,7 +69,8 @@ def run_nacre(arguments, ranks, folder, overrides=()):
     command = [os.path.abspath(arguments.nacre), os.path.abspath(arguments.prm)]
     for override in (*arguments.overrides, *overrides):
         command += ["--set", override]
-    command += ["--set", "Study/Output folder=output", "--set", "Study/Name=study"]
+    command += ["--set", "Study/Output folder=output",
+                "--set", "Study/Name=study"]
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-np", str(ranks)] + command
     environment = dict(os.environ, OMP_NUM_THREADS="1",
@@ -119,7 +122,8 @@ class Expectation:
         self.text = text
         rows, colon, condition = text.partition(":")
         if not colon:
-            raise Failure(f"'{text}': no ':' between the rows and the condition")
+            raise Failure(f"'{text}': no ':' between the rows and the "
+                          "condition")
         match = re.fullmatch(r"\s*(any\b)?\s*(.*?)\s*", rows)
         self.any = bool(match[1])
         self.rows = "True" if match[2] in ("", "all") else match[2]
@@ -130,7 +134,8 @@ class Expectation:
                             if isinstance(node, ast.Compare)]
         self.columns = sorted({node.id for node in ast.walk(tree)
                                if isinstance(node, ast.Name)}
-                              - NAMES.keys() - {"at", "order", "listed", "step", "last"})
+                              - NAMES.keys()
+                              - {"at", "order", "listed", "step", "last"})
         if not self.comparisons:
             raise Failure(f"'{text}': the condition compares nothing")
 
@@ -192,8 +197,9 @@ class Expectation:
         results = []
         for row in chosen:
             good = bool(self._evaluate(self.condition, row, rows, True))
-            print(f"  {'ok    ' if good else 'no    ' if self.any else 'FAILED'}"
-                  f" {describe(row)}: {self._measured(row, rows)}")
+            verdict = "ok" if good else "no" if self.any else "FAILED"
+            print(f"  {verdict:6} {describe(row)}: "
+                  f"{self._measured(row, rows)}")
             results.append(good)
         success = any(results) if self.any else all(results)
         if self.any and not success:
@@ -225,7 +231,8 @@ def parse(expression):
 def describe(row):
     """The row in a few words."""
     texts = [str(row[name]) if isinstance(row[name], str) else
-             f"{row[name]:g}" for name in ("degree", "eta", "thickness", "dofs")]
+             f"{row[name]:g}"
+             for name in ("degree", "eta", "thickness", "dofs")]
     return "p {}, eta {}, h {}, {} dofs".format(*texts)
 
 
@@ -244,7 +251,8 @@ def compare(first, second, what, tolerance):
                 continue
             if not isinstance(a[name], float) or not isinstance(b[name], float):
                 raise Failure(f"{name}: {a[name]} and {b[name]}")
-            difference = abs(a[name] - b[name]) / max(abs(a[name]), abs(b[name]))
+            difference = (abs(a[name] - b[name])
+                          / max(abs(a[name]), abs(b[name])))
             # nan compares false: a value that isn't finite is a difference
             if not difference <= largest:
                 largest, where = difference, f" ({name}, {describe(a)})"
@@ -262,14 +270,16 @@ def parse_arguments():
     parser.add_argument("--set", action="append", default=[], dest="overrides",
                         metavar="Section/Parameter=value")
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--compare-ranks", type=int, action="append", default=[])
+    parser.add_argument("--compare-ranks", type=int, action="append",
+                        default=[])
     parser.add_argument("--compare-set", action="append", default=[],
                         metavar="Section/Parameter=value")
     parser.add_argument("--tolerance", type=float, default=1e-6)
     parser.add_argument("--expect", action="append", default=[])
     parser.add_argument("--timeout", type=float, default=300, help="seconds")
     arguments = parser.parse_args()
-    if not (arguments.expect or arguments.compare_ranks or arguments.compare_set):
+    if not (arguments.expect or arguments.compare_ranks
+            or arguments.compare_set):
         parser.error("neither --expect nor a comparison: nothing to check")
     return arguments
 

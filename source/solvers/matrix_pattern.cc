@@ -148,7 +148,8 @@ namespace Nacre
 
 
     /**
-     * Of each representative of this rank: itself, the number of representatives
+     * Of each representative of this rank: itself, the number of
+     * representatives
      * next to it, and these.
      */
     std::vector<int>

@@ -228,7 +228,7 @@ def main():
         print("the same path on changing numbers of ranks")
         return
     with tempfile.TemporaryDirectory() as name:
-        alone, killed = pathlib.Path(name, "alone"), pathlib.Path(name, "killed")
+        alone, killed = (pathlib.Path(name, run) for run in ("alone", "killed"))
         failing = pathlib.Path(name, "failing")
         for folder in (alone, killed, failing):
             folder.mkdir()

@@ -110,7 +110,8 @@ def compare_vtk_5(runs, prm):
 
 def compare_strip(runs, prm):
     """A folded strip of one section, from a file and built in."""
-    common = ["Study/Degrees=2", "Study/Refinements=1", "Section/Thickness=0.02"]
+    common = ["Study/Degrees=2", "Study/Refinements=1",
+              "Section/Thickness=0.02"]
     file = runs.row(prm / "meshes" / "strip.prm", *common, "Section/Regions=")
     thick = runs.row(prm / "meshes" / "strip.prm", *common,
                      "Section/Regions=wall: h = 0.02; lid: E = 1e6")

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the Nacre authors
-"""The expectations of run_study.py: they hold, and they fail where they must."""
+"""The expectations of run_study.py hold, and they fail where they must."""
 
 import pathlib
 import sys
@@ -20,7 +20,8 @@ Lagrange,3,default,0.1,4,147,nan,nan,,0.1
 """
 HOLD = ["degree == 2 and last: ratio > .95",
         "any degree == 2: ratio > .97",
-        "degree == 2 and thickness == .1: abs(ratio - listed(.9, .975)) <= 1e-9",
+        "degree == 2 and thickness == .1: "
+        "abs(ratio - listed(.9, .975)) <= 1e-9",
         "step == 1 and thickness == .1: abs(order('ratio', 1) - 2) <= 1e-9",
         "step == 1 and thickness == .1: abs(at('ratio', thickness=.01) - .96)"
         " <= 1e-9",
@@ -64,7 +65,8 @@ def main():
     # seconds aren't compared; a nan is a difference even to itself
     finite, finite_other = rows[:4], other[:4]
     for tolerance, expected in (1e-6, True), (1e-8, False):
-        if run_study.compare(finite, finite_other, "a run", tolerance) != expected:
+        same = run_study.compare(finite, finite_other, "a run", tolerance)
+        if same != expected:
             wrong.append(f"compare to {tolerance}")
     if run_study.compare(rows, rows, "a run", 1e-6):
         wrong.append("compare nan")

@@ -178,7 +178,8 @@ def undefined_point_force(run):
     result = run("strip.prm", {
         "Analysis/Type": "dynamic", "Section/Density": 1,
         "Loads/Point forces": "(10, 0.5, 0): 0, 0, 1e-3*log(0.55 - t)"})
-    result.ends(1, r"Loads/Point forces.*is (not a number|infinite) at .*t = 0\.5\d+;",
+    result.ends(1, r"Loads/Point forces.*is (not a number|infinite) at .*"
+                r"t = 0\.5\d+;",
                 r"last good state, at t = 0\.5, is kept")
     check(result.cut_back() == 0, "smaller steps don't help")
     result.keeps_last_state()

@@ -32,7 +32,7 @@ panel_mesh(const bool refined)
   return mesh;
 }
 
-/** Hanging nodes; every seventh dof prescribed, some the multiple of another. */
+/** Hanging nodes; every seventh dof prescribed, some a multiple of another. */
 AffineConstraints<double>
 make_constraints(const Discretization &discretization)
 {

@@ -17,7 +17,8 @@ main(int argc, char **argv)
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   Parameters                             parameters(
     "subsection Section\n set Thickness = 0.1\n set Density = 2\n"
-                                " set Regions = left: h = 0.3; right: density = 7\nend\n");
+                                " set Regions = left: h = 0.3; "
+                                "right: density = 7\nend\n");
   // The plate [0, 2] x [0, 1]; the regions are halves.
   Mesh mesh;
   for (const double y : {0., 1.})

@@ -88,7 +88,7 @@ struct EdgeRows
   FullMatrix<double> moment;
 };
 
-/** Add a side: its part of the jump times @p sign, of the mean times @p share. */
+/** Add a side: its jump times @p sign, its mean times @p share. */
 void
 add_side(const RecordPoint &point,
          const SectionLaw  &section,

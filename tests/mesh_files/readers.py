@@ -122,9 +122,10 @@ class Reference:
             plain = dict(readers_cases.GOOD[name])
             if key[0]:
                 cells = "2, 2, 3, 6, 5\n"
-                plain["files"] = {"mesh.inp": plain["files"]["mesh.inp"].replace(
-                    cells, cells + "3, 3, 7, 8, 6\n*NODE\n7, 3, 0, 0\n"
-                    "8, 3, 1, 0\n")}
+                more = "3, 3, 7, 8, 6\n*NODE\n7, 3, 0, 0\n8, 3, 1, 0\n"
+                text = plain["files"]["mesh.inp"]
+                plain["files"] = {"mesh.inp": text.replace(cells,
+                                                           cells + more)}
                 plain["settings"] = {"three": True}
             code, output, rows = self.nacre.run(plain)
             check(code == 0, f"the plain mesh: {output}")
@@ -175,7 +176,8 @@ def main():
     for run, cases in ((run_good, readers_cases.GOOD),
                        (run_bad, readers_cases.BAD)):
         for name, case in cases.items():
-            if names and name not in names or nacre.n_ranks not in case["ranks"]:
+            if (names and name not in names
+                    or nacre.n_ranks not in case["ranks"]):
                 continue
             n_run += 1
             try:

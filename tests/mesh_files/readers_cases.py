@@ -190,7 +190,8 @@ good("others_are_left_out", DECK + """\
 *NSET, NSET=Held, ELSET=Bed
 *TIE, NAME=a
 b, c
-""", notes=[["2 elements ", "SPRINGA (springs)"], ["1 element ", "MASS (masses)"],
+""", notes=[["2 elements ", "SPRINGA (springs)"],
+                  ["1 element ", "MASS (masses)"],
             ["1 element ", "DASHPOTA (dashpots)"],
             ["1 element ", "F3D4 (fluid elements)"],
             ["1 element ", "R3D4 (rigid elements)"],
@@ -441,7 +442,8 @@ bad("ls_dyna_part", "*NODE\n1 0. 0. 0.\n*ELEMENT_SHELL\n1 1 1 2 5 4\n",
     "LS-DYNA")
 bad("gmsh_1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n", "gmsh",
     "format 1", "-format msh2")
-bad("gmsh_4_0", GMSH_4.replace("4.1 0 8", "4 0 8"), "version 4.0", "2.2 and 4.1",
+bad("gmsh_4_0", GMSH_4.replace("4.1 0 8", "4 0 8"), "version 4.0",
+    "2.2 and 4.1",
     "msh22")
 bad("gmsh_binary", GMSH_4.replace("4.1 0 8", "4.1 1 8"), "binary",
     "Mesh.Binary = 0")

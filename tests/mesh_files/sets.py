@@ -127,7 +127,8 @@ class Runner:
         name, code, said = self.start(mesh, settings)
         check(code == 0, f"exit code {code}: {said}")
         n_notes = said.count("nacre: note:")
-        check(n_notes == len(notes), f"{n_notes} notes, not {len(notes)}: {said}")
+        check(n_notes == len(notes),
+              f"{n_notes} notes, not {len(notes)}: {said}")
         for note in notes:
             check(note in said, f"{note!r} is not in: {said}")
         path = self.folder / "output" / f"{name}.csv"
@@ -373,7 +374,8 @@ def tube(gap, merged=False):
     for i in range(6 if merged else 7):
         angle = 2 * math.pi * i / 6 - (gap if i == 6 else 0)
         for j in range(2):
-            mesh.nodes[2 * i + j + 1] = (math.cos(angle), math.sin(angle), 2. * j)
+            mesh.nodes[2 * i + j + 1] = (math.cos(angle), math.sin(angle),
+                                         2. * j)
     n = len(mesh.nodes)
     for i in range(6):
         a, b = 2 * i + 1, (2 * i + 2) % n + 1
@@ -405,7 +407,8 @@ def case_seam(run):
 
 def case_slit(run):
     merged = run.good(tube(0, True), TUBE)
-    slit = run.good(tube(1e-7), TUBE | {SLITS: "allowed", QUANTITIES: "U = energy"},
+    slit = run.good(tube(1e-7),
+                    TUBE | {SLITS: "allowed", QUANTITIES: "U = energy"},
                     ["2 pairs of nodes are taken as the lips of slits"])
     check(slit["U"] > 1.5 * merged["U"],
           f"U = {slit['U']!r} and {merged['U']!r}")
@@ -514,7 +517,8 @@ def case_quoted(run):
     left, right = ('"' + name + '"' for name in groups)
     mesh = lines_of(groups).replace('"shell"', '"a; shell: 1 -> 2"')
     same(run.good(mesh, {
-        EDGES: f"{left}: clamped; {right}: free", FORCES: f"{right}: 0, 0, 1e-6",
+        EDGES: f"{left}: clamped; {right}: free",
+        FORCES: f"{right}: 0, 0, 1e-6",
         MOMENTS: f"{right}: 1e-7", REGIONS: '"a; shell: 1 -> 2": h = 0.05',
         QUANTITIES: "w = displacement z at (2, 0, 0); U = energy; "
                     f"R = reaction z of {left}; M = moment y of {left} about "

@@ -3,7 +3,8 @@
 
 // The V-cycle is symmetric, and few iterations solve what the direct solver
 // does: all elements, hanging nodes, meshes without a coarser one, thin shells,
-// co-rotational tangents, on any number of ranks. An indefinite matrix is found out.
+// co-rotational tangents, on any number of ranks. An indefinite matrix
+// is found out.
 
 #include "multigrid_case.h"
 #include <nacre/solvers/direct_solver.h>

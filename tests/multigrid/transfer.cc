@@ -76,7 +76,8 @@ test(const Element &element, const bool is_adaptive, const bool is_held)
   const Case          shell("subsection Mid-surface\n set Surface = plate\n"
                             " set Subdivisions = 3, 2\nend\n" +
                    std::string(is_held ? "subsection Boundary conditions\n"
-                                                  " set Edges = u=0: x = 0, z = 0\nend" :
+                                                  " set Edges = "
+                                                  "u=0: x = 0, z = 0\nend" :
                                          ""));
   std::vector<Marker> markers;
   if (is_adaptive)

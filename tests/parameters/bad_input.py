@@ -138,7 +138,8 @@ def succeed(nacre, args, folder, *expect):
 def table(path):
     """The .csv but for the columns of CPU seconds."""
     rows = [line.split(",") for line in path.read_text().splitlines()]
-    keep = [i for i, name in enumerate(rows[0]) if not name.endswith(("_s", "memory_gb"))]
+    keep = [i for i, name in enumerate(rows[0])
+            if not name.endswith(("_s", "memory_gb"))]
     check(len(rows) > 1 and "dofs" in rows[0], f"{path} is no table")
     return [[row[i] for i in keep] for row in rows]
 

@@ -110,7 +110,8 @@ case("adaptive_goal_unknown",
      dict(GOAL, **{"Adaptive refinement/Goal": "wmax"}))
 case("adaptive_goal_missing", ["Adaptive refinement/Goal", "w, U"], GOAL)
 case("adaptive_goal_nonlinear",
-     ["Adaptive refinement/Goal", "'m'", "not linear", "a displacement at a point"],
+     ["Adaptive refinement/Goal", "'m'", "not linear",
+      "a displacement at a point"],
      dict(GOAL, **{"Adaptive refinement/Goal": "m",
                    "Quantities/Quantities": "m = maximum displacement"}))
 case("adaptive_goal_without_effect",
@@ -168,13 +169,15 @@ case("eta_too_small",
      ["is below the bound", "not positive definite", "negative pivots",
       "Study/Penalties: eta = 1e-06 is too small"],
      {"Study/Penalties": "1e-6", "Study/Degrees": "3"})
-case("eta_unknown_word", ["Study/Penalties, 'default' or a number", "unknown name 'defualt'"],
+case("eta_unknown_word",
+     ["Study/Penalties, 'default' or a number", "unknown name 'defualt'"],
      {"Study/Penalties": "defualt"})
 case("eta_none", ["Study/Penalties", "'default' or a number"],
      {"Study/Penalties": ""})
 case("thicknesses_negative", ["Study/Thicknesses", "'-0.1'", "not positive"],
      {"Study/Thicknesses": "0.1, -0.1"})
-case("degree_1", ["Degrees", "'1'", "at least 1", "2 <= n <= 5"], {"Study/Degrees": "1"})
+case("degree_1", ["Degrees", "'1'", "at least 1", "2 <= n <= 5"],
+     {"Study/Degrees": "1"})
 case("degree_6", ["Degrees", "'2, 6'", "2", "5"], {"Study/Degrees": "2, 6"})
 case("degree_none", ["Degrees", "''", "not allowed"], {"Study/Degrees": ""})
 case("degree_not_a_number", ["Degrees", "'two'", "not allowed"],
@@ -502,7 +505,8 @@ case("point_force_off_the_mesh",
      ["Loads/Point forces", "off the mid-surface", "nearest point",
       re.compile(r"\(\s*1,? 0.5,? -?0\)")],
      {"Loads/Point forces": "(1, 0.5, 1): 0, 0, 1"})
-case("point_force_two_components", ["Loads/Point forces", "'0, 1'", "2 components"],
+case("point_force_two_components",
+     ["Loads/Point forces", "'0, 1'", "2 components"],
      {"Loads/Point forces": "(1, 0.5, 0): 0, 1"})
 
 # --- Quantities ------------------------------------------------------------
@@ -531,7 +535,8 @@ case("quantity_direction", [QUANTITIES, "'w'", "unknown direction 'Z'", "'z'"],
      {QUANTITIES: "w = displacement Z at (1, 0.5, 0)"})
 case("quantity_direction_zero", [QUANTITIES, "'w'", "no length"],
      {QUANTITIES: "w = displacement (0, 0, 0) at (1, 0.5, 0)"})
-case("quantity_without_point", [QUANTITIES, "'w'", "displacement z at (x, y, z)"],
+case("quantity_without_point",
+     [QUANTITIES, "'w'", "displacement z at (x, y, z)"],
      {QUANTITIES: "w = displacement z"})
 case("quantity_off_the_mesh",
      [QUANTITIES, "'w'", "off the mid-surface", "nearest point",

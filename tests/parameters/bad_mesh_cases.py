@@ -211,7 +211,9 @@ case("curvature_far_off",
      ["'bad.msh'", "node 1 at (0, 0, 0)", "away from the surface 'sphere'",
       "Mid-surface/sphere"],
      GOOD, {"Mid-surface/file/Curvature": "sphere"})
-case("triangles", ["Mid-surface/file", "triangles", "Discretization/Element", "quadrilaterals"],
+case("triangles",
+     ["Mid-surface/file", "triangles", "Discretization/Element",
+      "quadrilaterals"],
      msh(elements=(LEFT, (11, TRIANGLE, 2, "1 2 5"), (12, TRIANGLE, 2, "1 5 4"),
                    (13, TRIANGLE, 2, "2 3 6"), (14, TRIANGLE, 2, "2 6 5"))))
 
@@ -296,12 +298,14 @@ for name, expect, old, new in (
         ("no_types", ["no CELL_TYPES"], VTK[VTK.index("CELL_TYPES"):], ""),
         ("few_points", ["line 7", "'2'", "more than it announces"],
          "POINTS 6", "POINTS 5"),
-        ("unknown_point", ["the element 2", "the node 9"], "4 1 2 5", "4 1 9 5"),
+        ("unknown_point", ["the element 2", "the node 9"], "4 1 2 5",
+         "4 1 9 5"),
         ("nodes_of_type", ["the element 1", "has 4 nodes", "has 3"], "3 9 9",
          "3 5 9"),
         ("few_groups", ["a value of MaterialID", "truncated"], "1 0 0\n",
          "1 0\n"),
-        ("unknown_group", ["unknown edge 'left'", "Known: 1, boundary"], "", "")):
+        ("unknown_group", ["unknown edge 'left'", "Known: 1, boundary"], "",
+         "")):
     assert old in VTK, name
     case("vtk_" + name, expect, VTK.replace(old, new), file="bad.vtk")
 

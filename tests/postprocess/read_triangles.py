@@ -19,7 +19,8 @@ def main():
         subprocess.run([nacre, prm, "--set", "Study/Output folder=output"],
                        cwd=folder, check=True, stdout=subprocess.DEVNULL)
         reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(next(pathlib.Path(folder, "output").glob("*.vtu"))))
+        files = pathlib.Path(folder, "output").glob("*.vtu")
+        reader.SetFileName(str(next(files)))
         reader.Update()
     grid = reader.GetOutput()
     cells = [grid.GetCell(k) for k in range(grid.GetNumberOfCells())]

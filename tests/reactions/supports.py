@@ -98,8 +98,8 @@ class Nacre:
     def balance(self):
         """Rows of the last balance that was printed."""
         text = self.said[self.said.rindex("Balance of forces"):]
-        found = re.findall(r"^ +(loads|reactions|inertia|internal|sum)((?: +\S+){6})$",
-                           text, re.M)
+        found = re.findall(r"^ +(loads|reactions|inertia|internal|sum)"
+                           r"((?: +\S+){6})$", text, re.M)
         return {name: [float(x) for x in numbers.split()]
                 for name, numbers in found}
 
@@ -456,7 +456,8 @@ def points_with_hanging_nodes(nacre):
                             "(0.43, 0.6, 0): z = 0.01; (0.7, 0, 0): z = 0; "
                             "(0, 0.3, 0): fixed; (1, 1, 0): x = 0.001",
         Quantities=names(
-            w=f"displacement z at {PLACE}", v="displacement z at (0.43, 0.6, 0)",
+            w=f"displacement z at {PLACE}",
+            v="displacement z at (0.43, 0.6, 0)",
             R=f"reaction z of point {PLACE}, point (0.43, 0.6, 0)",
             one=f"reaction z of point {PLACE}",
             other="reaction z of point (0.43, 0.6, 0)",

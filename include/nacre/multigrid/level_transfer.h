@@ -34,7 +34,8 @@ namespace Nacre
    *
    * The prolongation P takes unconstrained coarse dofs to unconstrained fine
    * ones: it is the embedding of the space of a coarse cell into that of its
-   * children, or, on the same mesh, into a space of higher degree, with the constrained coarse dofs (hanging nodes, supports)
+   * children, or, on the same mesh, into a space of higher degree, with the
+   * constrained coarse dofs (hanging nodes, supports)
    * expressed by unconstrained ones. The restriction is its transpose. The
    * meshes may be distributed differently.
    */
@@ -58,8 +59,8 @@ namespace Nacre
     restrict_to(Vector &coarse, const Vector &fine) const;
 
     /**
-     * The interpolation at the coarse nodes of the ghosted displacement @p fine,
-     * ghosted. Collective.
+     * The interpolation of the ghosted displacement @p fine at the coarse
+     * nodes, ghosted. Collective.
      */
     TrilinosWrappers::MPI::Vector
     interpolate(const TrilinosWrappers::MPI::Vector &fine) const;

@@ -99,7 +99,8 @@ namespace Nacre
      * The columns element, degree, eta, thickness, cells, dofs, the
      * quantities, `ratio` of the first quantity that has a reference,
      * `ratio_NAME` of the others, `rate_NAME`, setup_s, assembly_s, solve_s,
-     * estimate_s where errors are estimated, solver, iterations, memory_gb; 12 significant
+     * estimate_s where errors are estimated, solver, iterations, memory_gb; 12
+     * significant
      * digits, nothing where there is no value.
      */
     void

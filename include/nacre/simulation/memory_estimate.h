@@ -33,7 +33,7 @@ namespace Nacre
     double program = 0.;
     /** Cells, geometry, dof numbers, vectors: proportional to the cells. */
     double mesh = 0.;
-    /** 12 bytes for each entry of the rows, and the pattern while it is made. */
+    /** 12 bytes for an entry of the rows, and the pattern while it is made. */
     double matrix = 0.;
     /** Factors, of N log2 N entries; or levels and patches. */
     double solver = 0.;
