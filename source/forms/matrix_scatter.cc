@@ -4,9 +4,6 @@
 #include <nacre/base/simd.h>
 #include <nacre/forms/matrix_scatter.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -39,12 +36,8 @@ namespace Nacre
     , matrix_(matrix)
     , right_hand_side_(right_hand_side)
     , range_(matrix.local_range())
+    , rows_(matrix)
   {
-    const int error =
-      matrix.trilinos_matrix().ExtractCrsDataPointers(row_starts_,
-                                                      columns_,
-                                                      values_);
-    AssertThrow(error == 0, ExcTrilinosError(error));
     patterns_.assign(range_.second - range_.first,
                      numbers::invalid_unsigned_int);
   }
@@ -142,9 +135,8 @@ namespace Nacre
   MatrixScatter::column_of(const types::global_dof_index dof) const
   {
     // This rank's columns come first, in the order of its rows.
-    return is_mine(dof) ?
-             static_cast<int>(dof - range_.first) :
-             matrix_.trilinos_matrix().ColMap().LID(static_cast<int>(dof));
+    return is_mine(dof) ? static_cast<int>(dof - range_.first) :
+                          rows_.local_column(dof);
   }
 
   void
@@ -186,18 +178,19 @@ namespace Nacre
     unsigned int &pattern = patterns_[row];
     if (pattern != numbers::invalid_unsigned_int)
       return pattern;
-    const int *const columns = columns_ + row_starts_[row];
-    const int        length  = row_starts_[row + 1] - row_starts_[row];
+    const int *const   columns = rows_[row].columns;
+    const unsigned int length  = rows_[row].length;
     if (row > 0 && patterns_[row - 1] != numbers::invalid_unsigned_int &&
-        row_starts_[row] - row_starts_[row - 1] == length &&
-        std::equal(columns, columns + length, columns - length))
+        rows_[row - 1].length == length &&
+        std::equal(columns, columns + length, rows_[row - 1].columns))
       return pattern = patterns_[row - 1];
     pattern = pattern_starts_.size();
     pattern_starts_.push_back(intervals_.size());
-    for (int k = 0; k < length; ++k)
+    for (unsigned int k = 0; k < length; ++k)
       if (k == 0 || columns[k] != columns[k - 1] + 1)
-        intervals_.push_back({columns[k], k});
-    intervals_.push_back({std::numeric_limits<int>::max(), length});
+        intervals_.push_back({columns[k], static_cast<int>(k)});
+    intervals_.push_back(
+      {std::numeric_limits<int>::max(), static_cast<int>(length)});
     return pattern;
   }
 
@@ -252,7 +245,7 @@ namespace Nacre
                           const unsigned int                          n_done)
   {
     find_runs(dofs, n_done);
-    double *const right_hand_side = right_hand_side_.trilinos_vector()[0];
+    double *const right_hand_side = right_hand_side_.begin();
     for (const auto &row_run : runs_)
       {
         const unsigned int first_run =
@@ -273,7 +266,7 @@ namespace Nacre
             const unsigned int pattern = pattern_of(row);
             if (pattern != searched)
               search(searched = pattern);
-            add_row(values_ + row_starts_[row],
+            add_row(rows_[row].values,
                     local,
                     places_.data() + first_run,
                     places_.size() - first_run);

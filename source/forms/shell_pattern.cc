@@ -2,12 +2,9 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/forms/shell_pattern.h>
+#include <nacre/solvers/sparse_rows.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Epetra_CrsGraph.h>
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
 
 #include <algorithm>
 #include <functional>
@@ -417,31 +414,12 @@ namespace Nacre
       std::vector<unsigned int> coupled_;
     };
 
-    /**
-     * Tell the @p graph, which shares its data with its copies, that its rows
-     * ascend, or Trilinos would sort them again.
-     */
-    void
-    mark_sorted(const Epetra_CrsGraph &graph)
-    {
-      struct SortedGraph : public Epetra_CrsGraph
-      {
-        explicit SortedGraph(const Epetra_CrsGraph &other)
-          : Epetra_CrsGraph(other)
-        {
-          SetSorted(true);
-        }
-      };
-      const SortedGraph sorted(graph);
-    }
-
     /** This rank's columns come first, those of other ranks follow. */
     class LocalColumns
     {
     public:
       LocalColumns(const IndexSet &owned, Dofs &&ghosts)
-        : owned_(owned)
-        , first_(owned.n_elements() > 0 ? owned.nth_index_in_set(0) : Dof(0))
+        : first_(owned.n_elements() > 0 ? owned.nth_index_in_set(0) : Dof(0))
         , end_(first_ + owned.n_elements())
         , ghosts_(std::move(ghosts))
       {
@@ -460,30 +438,16 @@ namespace Nacre
                     ghosts_.begin());
       }
 
-      bool
-      has_ghosts() const
+      const Dofs &
+      ghosts() const
       {
-        return !ghosts_.empty();
-      }
-
-      Epetra_Map
-      make_map(const Epetra_Comm &communicator) const
-      {
-        using Int = TrilinosWrappers::types::int_type;
-        std::vector<Int> dofs(owned_.begin(), owned_.end());
-        dofs.insert(dofs.end(), ghosts_.begin(), ghosts_.end());
-        return Epetra_Map(static_cast<Int>(-1),
-                          static_cast<int>(dofs.size()),
-                          dofs.data(),
-                          0,
-                          communicator);
+        return ghosts_;
       }
 
     private:
-      const IndexSet &owned_;
-      const Dof       first_;
-      const Dof       end_;
-      Dofs            ghosts_;
+      const Dof first_;
+      const Dof end_;
+      Dofs      ghosts_;
     };
 
     /** Write the columns of all rows; @p starts of the rows in @p indices. */
@@ -510,7 +474,7 @@ namespace Nacre
                                columns.end(),
                                begin,
                                std::cref(local_column));
-                if (local_column.has_ghosts())
+                if (!local_column.ghosts().empty())
                   std::sort(begin, begin + columns.size());
                 done = begin;
               }
@@ -524,10 +488,8 @@ namespace Nacre
                      const AffineConstraints<double> &constraints,
                      TrilinosWrappers::SparseMatrix  &matrix)
   {
-    const IndexSet  &owned = discretization.locally_owned_dofs();
-    const Epetra_Map row_map =
-      owned.make_trilinos_map(discretization.communicator(), false);
-    BlockRows rows(discretization, constraints);
+    const IndexSet &owned = discretization.locally_owned_dofs();
+    BlockRows       rows(discretization, constraints);
 
     // Starts of the rows, and columns of other ranks.
     std::vector<int> starts(owned.n_elements() + 1);
@@ -543,25 +505,14 @@ namespace Nacre
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
     const LocalColumns local_column(owned, std::move(ghosts));
 
-    // Trilinos' own insertion would copy and sort every row once more. The
-    // values are never touched.
-    const Epetra_Map column_map = local_column.make_map(row_map.Comm());
-    Epetra_CrsMatrix rows_only(Copy, row_map, column_map, 0, true);
-    auto            &indices = rows_only.ExpertExtractIndices();
-    indices.Resize(starts.back());
-    write_columns(rows,
-                  constraints,
-                  local_column,
-                  starts.data(),
-                  indices.Values());
-    rows_only.ExpertExtractIndexOffset().Resize(starts.size());
-    std::copy(starts.begin(),
-              starts.end(),
-              rows_only.ExpertExtractIndexOffset().Values());
-    rows_only.ExpertExtractValues() = new double[starts.back()];
-    const int error = rows_only.ExpertStaticFillComplete(row_map, row_map);
-    AssertThrow(error == 0, ExcTrilinosError(error));
-    mark_sorted(rows_only.Graph());
-    matrix.reinit(rows_only, false);
+    make_sparse_rows(
+      discretization.communicator(),
+      owned,
+      local_column.ghosts(),
+      starts,
+      [&](int *const columns) {
+        write_columns(rows, constraints, local_column, starts.data(), columns);
+      },
+      matrix);
   }
 } // namespace Nacre

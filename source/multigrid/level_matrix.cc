@@ -6,12 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/trilinos_index_access.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Import.h>
-#include <Epetra_Map.h>
 
 #include <algorithm>
 #include <array>
@@ -22,59 +17,32 @@ namespace Nacre
 {
   namespace
   {
-    /** The rows @p indices of @p matrix on this rank. */
-    std::unique_ptr<Epetra_CrsMatrix>
-    copy_rows(const Epetra_CrsMatrix &matrix, const IndexSet &indices)
-    {
-      const std::vector<TrilinosWrappers::types::int_type> ids(indices.begin(),
-                                                               indices.end());
-      const Epetra_Map map(TrilinosWrappers::types::int_type(-1),
-                           int(ids.size()),
-                           ids.data(),
-                           0,
-                           matrix.Comm());
-      auto             rows = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0);
-      const Epetra_Import import(map, matrix.RowMap());
-
-      int ierr = rows->Import(matrix, import, Insert);
-      AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-      ierr = rows->FillComplete(matrix.DomainMap(), matrix.RangeMap());
-      AssertThrow(ierr >= 0, ExcTrilinosError(ierr));
-      return rows;
-    }
-
     std::vector<types::global_dof_index>
-    column_ids(const Epetra_CrsMatrix &matrix)
+    column_ids(const SparseRows &matrix)
     {
-      std::vector<types::global_dof_index> ids(matrix.ColMap().NumMyElements());
+      std::vector<types::global_dof_index> ids(matrix.n_columns());
       for (unsigned int j = 0; j < ids.size(); ++j)
-        ids[j] = TrilinosWrappers::global_index(matrix.ColMap(), j);
+        ids[j] = matrix.global_column(j);
       return ids;
     }
   } // namespace
-
-
-  LevelMatrix::LevelMatrix() = default;
-
-
-  LevelMatrix::~LevelMatrix() = default;
 
 
   void
   LevelMatrix::reinit(const TrilinosWrappers::SparseMatrix &matrix,
                       const IndexSet                       &further_rows)
   {
-    const MPI_Comm communicator = matrix.get_mpi_communicator();
-    const IndexSet owned        = matrix.locally_owned_range_indices();
-    const auto    &own_matrix   = matrix.trilinos_matrix();
+    const MPI_Comm   communicator = matrix.get_mpi_communicator();
+    const IndexSet   owned        = matrix.locally_owned_range_indices();
+    const SparseRows own_rows(matrix);
     const bool is_parallel = Utilities::MPI::n_mpi_processes(communicator) > 1;
     further_rows_.reset();
     IndexSet ghosts(matrix.m());
     if (is_parallel)
       {
-        further_rows_ = copy_rows(own_matrix, further_rows);
+        further_rows_.emplace(matrix, further_rows);
         ghosts.add_indices(further_rows);
-        for (auto ids : {column_ids(own_matrix), column_ids(*further_rows_)})
+        for (auto ids : {column_ids(own_rows), column_ids(*further_rows_)})
           {
             std::sort(ids.begin(), ids.end());
             ghosts.add_indices(ids.begin(), ids.end());
@@ -92,7 +60,7 @@ namespace Nacre
     patterns_.assign(1, Pattern());
     runs_.clear();
     values_ = {};
-    add_rows(own_matrix);
+    add_rows(own_rows);
     if (is_parallel)
       add_rows(*further_rows_);
     unsigned int longest = 0;
@@ -121,27 +89,24 @@ namespace Nacre
 
 
   void
-  LevelMatrix::add_rows(const Epetra_CrsMatrix &matrix)
+  LevelMatrix::add_rows(const SparseRows &matrix)
   {
     std::vector<unsigned int> local_columns;
     for (const auto id : column_ids(matrix))
       local_columns.push_back(partitioner_->global_to_local(id));
 
-    const int *last_columns = nullptr;
-    int        last_length  = -1;
-    for (int i = 0; i < matrix.NumMyRows(); ++i)
+    const int   *last_columns = nullptr;
+    unsigned int last_length  = numbers::invalid_unsigned_int;
+    for (unsigned int i = 0; i < matrix.n_rows(); ++i)
       {
-        int     length;
-        double *values;
-        int    *columns;
-        matrix.ExtractMyRowView(i, length, values, columns);
+        const auto [length, columns, values] = matrix[i];
         if (length != last_length ||
             !std::equal(columns, columns + length, last_columns))
           {
             Pattern pattern;
             pattern.first  = runs_.size();
             pattern.length = length;
-            for (int k = 0; k < length; ++k)
+            for (unsigned int k = 0; k < length; ++k)
               {
                 const unsigned int j = local_columns[columns[k]];
                 pattern.is_interior &= (j < n_owned_);
@@ -155,10 +120,10 @@ namespace Nacre
             last_columns = columns;
             last_length  = length;
           }
-        const unsigned int row = partitioner_->global_to_local(
-          TrilinosWrappers::global_index(matrix.RowMap(), i));
+        const unsigned int row =
+          partitioner_->global_to_local(matrix.global_row(i));
         rows_[row] = {values, static_cast<unsigned int>(patterns_.size() - 1)};
-        for (int k = 0; k < length; ++k)
+        for (unsigned int k = 0; k < length; ++k)
           if (local_columns[columns[k]] == row)
             diagonal_[row] = values[k];
       }

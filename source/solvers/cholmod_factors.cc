@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/solvers/sparse_rows.h>
 #include <nacre/solvers/symmetric_factors.h>
 
-#include <deal.II/lac/trilinos_index_access.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -152,9 +152,9 @@ namespace Nacre
                                    const MatrixPattern    &pattern,
                                    const std::vector<int> &place)
     {
-      const Epetra_CrsMatrix &A       = matrix.trilinos_matrix();
-      const std::size_t       n       = matrix.m();
-      cholmod_sparse         *entries = Library::allocate_sparse(n,
+      const SparseRows  A(matrix);
+      const std::size_t n       = matrix.m();
+      cholmod_sparse   *entries = Library::allocate_sparse(n,
                                                          n,
                                                          pattern.n_upper(),
                                                          0,
@@ -170,16 +170,12 @@ namespace Nacre
       Index        k     = 0;
       for (std::size_t i = 0; i < n; ++i)
         {
-          start[i] = k;
-          int     length;
-          double *values;
-          int    *columns;
-          A.ExtractMyRowView(i, length, values, columns);
-          for (int l = 0; l < length; ++l)
+          start[i]                  = k;
+          const SparseRows::Row row = A[i];
+          for (unsigned int l = 0; l < row.length; ++l)
             {
-              const int j =
-                TrilinosWrappers::global_index(A.ColMap(), columns[l]);
-              if (j < static_cast<int>(i) && pattern.contains(values[l]))
+              const std::size_t j = A.global_column(row.columns[l]);
+              if (j < i && pattern.contains(row.values[l]))
                 rows[k++] = j;
             }
           rows[k++] = i;
@@ -209,10 +205,10 @@ namespace Nacre
     CholmodFactors<Index>::permuted_matrix(const Matrix        &matrix,
                                            const MatrixPattern &pattern)
     {
-      const Epetra_CrsMatrix &A      = matrix.trilinos_matrix();
-      const Index             n      = matrix.m();
-      const Index *const      order  = static_cast<Index *>(factor_->Perm);
-      cholmod_sparse *const   result = Library::allocate_sparse(n,
+      const SparseRows      A(matrix);
+      const Index           n      = matrix.m();
+      const Index *const    order  = static_cast<Index *>(factor_->Perm);
+      cholmod_sparse *const result = Library::allocate_sparse(n,
                                                               n,
                                                               pattern.n_upper(),
                                                               0,
@@ -223,11 +219,11 @@ namespace Nacre
       if (result == nullptr)
         return nullptr;
 
-      std::vector<int> place(n), column_place(A.NumMyCols());
+      std::vector<int> place(n), column_place(A.n_columns());
       for (Index k = 0; k < n; ++k)
         place[order[k]] = k;
-      for (int j = 0; j < A.NumMyCols(); ++j)
-        column_place[j] = place[TrilinosWrappers::global_index(A.ColMap(), j)];
+      for (unsigned int j = 0; j < A.n_columns(); ++j)
+        column_place[j] = place[A.global_column(j)];
 
       Index *const  start   = static_cast<Index *>(result->p);
       Index *const  rows    = static_cast<Index *>(result->i);
@@ -235,25 +231,22 @@ namespace Nacre
       Index         end     = 0;
       for (Index k = 0; k < n; ++k)
         {
-          start[k] = end;
-          int     length;
-          double *values;
-          int    *columns;
-          A.ExtractMyRowView(order[k], length, values, columns);
+          start[k]                     = end;
+          const SparseRows::Row stored = A[order[k]];
           // The diagonal first, stored or not.
           double &diagonal = entries[end];
           diagonal         = 0.;
           rows[end++]      = k;
-          for (int l = 0; l < length; ++l)
+          for (unsigned int l = 0; l < stored.length; ++l)
             {
-              const int row = column_place[columns[l]];
-              if (row > k && pattern.contains(values[l]))
+              const int row = column_place[stored.columns[l]];
+              if (row > k && pattern.contains(stored.values[l]))
                 {
                   rows[end]      = row;
-                  entries[end++] = values[l];
+                  entries[end++] = stored.values[l];
                 }
               else if (row == k)
-                diagonal = values[l];
+                diagonal = stored.values[l];
             }
         }
       start[n] = end;

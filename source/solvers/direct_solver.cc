@@ -2,13 +2,11 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/solvers/direct_solver.h>
+#include <nacre/solvers/sparse_rows.h>
 #include <nacre/solvers/symmetric_factors.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
-
-#include <Epetra_Import.h>
-#include <Epetra_Vector.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,37 +51,28 @@ namespace Nacre
              const TrilinosVector &x,
              const TrilinosVector &b)
     {
-      const Epetra_CrsMatrix &A = matrix.trilinos_matrix();
-      Epetra_Vector           x_columns(A.ColMap());
-      const Epetra_Vector    &x_owned = *x.trilinos_vector()(0);
-
-      const int ierr = A.Importer() != nullptr ?
-                         x_columns.Import(x_owned, *A.Importer(), Insert) :
-                         x_columns.Update(1., x_owned, 0.);
-      AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-
-      const double x_max = x.linfty_norm();
-      const double small =
+      const SparseRows A(matrix);
+      const auto       x_columns = A.of_columns(x);
+      const double     x_max     = x.linfty_norm();
+      const double     small =
         1000. * matrix.m() * std::numeric_limits<double>::epsilon();
       double error = 0.;
-      for (int i = 0; i < A.NumMyRows(); ++i)
+      for (unsigned int i = 0; i < A.n_rows(); ++i)
         {
-          int     length;
-          double *values;
-          int    *columns;
-          A.ExtractMyRowView(i, length, values, columns);
-          const double b_i     = b.trilinos_vector()[0][i];
+          const SparseRows::Row row = A[i];
+
+          const double b_i     = b.begin()[i];
           double       r_i     = b_i;
           double       scale   = std::abs(b_i);
           double       row_sum = 0.;
-          for (int k = 0; k < length; ++k)
+          for (unsigned int k = 0; k < row.length; ++k)
             {
-              const double product = values[k] * x_columns[columns[k]];
+              const double product = row.values[k] * x_columns[row.columns[k]];
               r_i -= product;
               scale += std::abs(product);
-              row_sum += std::abs(values[k]);
+              row_sum += std::abs(row.values[k]);
             }
-          r.trilinos_vector()[0][i] = r_i;
+          r.begin()[i] = r_i;
           if (scale <= small * (row_sum * x_max + std::abs(b_i)))
             scale += row_sum * x_max;
           if (r_i != 0.)

@@ -2,14 +2,12 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/solvers/matrix_pattern.h>
+#include <nacre/solvers/sparse_rows.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/trilinos_index_access.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include <Epetra_Import.h>
-#include <Epetra_IntVector.h>
 #include <amd.h>
 #include <metis.h>
 
@@ -21,20 +19,6 @@ namespace Nacre
 {
   namespace
   {
-    /** A row of the matrix on this rank. */
-    struct Row
-    {
-      Row(const Epetra_CrsMatrix &A, const int i)
-      {
-        A.ExtractMyRowView(i, length, values, columns);
-      }
-
-      int     length;
-      double *values;
-      int    *columns;
-    };
-
-
     /** A pseudo-random number: Steele, Lea, Flood (2014), SplitMix64. */
     std::uint64_t
     scatter_bits(const std::uint64_t number)
@@ -130,19 +114,15 @@ namespace Nacre
      * neighbours (both count as neighbours of themselves), as global indices.
      */
     std::vector<int>
-    representatives(const Epetra_CrsMatrix           &A,
-                    const std::vector<std::uint64_t> &rows)
+    representatives(const SparseRows &A, const std::vector<std::uint64_t> &rows)
     {
       std::vector<int>                       result(rows.size());
       std::unordered_map<std::uint64_t, int> first;
       first.reserve(rows.size() / 3 + 1);
       for (std::size_t i = 0; i < rows.size(); ++i)
-        result[i] =
-          (i > 0 && rows[i] == rows[i - 1]) ?
-            result[i - 1] :
-            first
-              .emplace(rows[i], TrilinosWrappers::global_index(A.RowMap(), i))
-              .first->second;
+        result[i] = (i > 0 && rows[i] == rows[i - 1]) ?
+                      result[i - 1] :
+                      first.emplace(rows[i], A.global_row(i)).first->second;
       return result;
     }
 
@@ -153,40 +133,32 @@ namespace Nacre
      * next to it, and these.
      */
     std::vector<int>
-    neighbourhoods(const Epetra_CrsMatrix &A, const std::vector<int> &own)
+    neighbourhoods(const SparseRows &A, const std::vector<int> &own)
     {
-      Epetra_IntVector of_rows(Copy, A.RowMap(), const_cast<int *>(own.data()));
-      Epetra_IntVector of_columns(A.ColMap());
-      const Epetra_IntVector *column_vertices = &of_rows;
-      if (A.Importer() != nullptr)
-        {
-          const int ierr = of_columns.Import(of_rows, *A.Importer(), Insert);
-          AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-          column_vertices = &of_columns;
-        }
+      const std::vector<int>       column_vertices = A.of_columns(own);
       std::unordered_map<int, int> last_seen;
-      std::vector<int>             number(A.NumMyCols());
-      for (int j = 0; j < A.NumMyCols(); ++j)
-        number[j] = last_seen.emplace((*column_vertices)[j], last_seen.size())
-                      .first->second;
+      std::vector<int>             number(A.n_columns());
+      for (unsigned int j = 0; j < A.n_columns(); ++j)
+        number[j] =
+          last_seen.emplace(column_vertices[j], last_seen.size()).first->second;
       std::vector<int> mark(last_seen.size(), -1);
 
       std::vector<int> result;
       for (std::size_t i = 0; i < own.size(); ++i)
-        if (own[i] == TrilinosWrappers::global_index(A.RowMap(), i))
+        if (own[i] == static_cast<int>(A.global_row(i)))
           {
-            const Row         row(A, i);
-            const std::size_t head = result.size();
+            const SparseRows::Row row  = A[i];
+            const std::size_t     head = result.size();
             result.push_back(own[i]);
             result.push_back(0);
-            for (int k = 0; k < row.length; ++k)
+            for (unsigned int k = 0; k < row.length; ++k)
               {
                 const int j = row.columns[k];
                 if (mark[number[j]] != static_cast<int>(i) &&
-                    (*column_vertices)[j] != own[i])
+                    column_vertices[j] != own[i])
                   {
                     mark[number[j]] = i;
-                    result.push_back((*column_vertices)[j]);
+                    result.push_back(column_vertices[j]);
                   }
               }
             result[head + 1] = result.size() - head - 2;
@@ -242,28 +214,28 @@ namespace Nacre
 
   MatrixPattern::MatrixPattern(const Matrix &matrix)
   {
-    const Epetra_CrsMatrix    &A = matrix.trilinos_matrix();
-    std::vector<std::uint64_t> number(A.NumMyCols());
-    std::vector<int>           id(A.NumMyCols());
-    for (int j = 0; j < A.NumMyCols(); ++j)
+    const SparseRows           A(matrix);
+    std::vector<std::uint64_t> number(A.n_columns());
+    std::vector<int>           id(A.n_columns());
+    for (unsigned int j = 0; j < A.n_columns(); ++j)
       {
-        id[j]     = TrilinosWrappers::global_index(A.ColMap(), j);
+        id[j]     = A.global_column(j);
         number[j] = scatter_bits(id[j]);
       }
 
-    rows_.resize(A.NumMyRows());
-    stored_.resize(A.NumMyRows());
+    rows_.resize(A.n_rows());
+    stored_.resize(A.n_rows());
     bool        is_finite = true;
     std::size_t n_stored  = 0;
     // Of entries below minus above the diagonal: sums of products of the row's
     // and the column's number, which vanish for symmetric patterns.
     std::uint64_t skew = 0, skew_stored = 0;
-    for (int i = 0; i < A.NumMyRows(); ++i)
+    for (unsigned int i = 0; i < A.n_rows(); ++i)
       {
-        const Row     row(A, i);
-        const int     i_global = TrilinosWrappers::global_index(A.RowMap(), i);
-        std::uint64_t kept[2] = {0, 0}, stored[2] = {0, 0};
-        for (int k = 0; k < row.length; ++k)
+        const SparseRows::Row row      = A[i];
+        const int             i_global = A.global_row(i);
+        std::uint64_t         kept[2] = {0, 0}, stored[2] = {0, 0};
+        for (unsigned int k = 0; k < row.length; ++k)
           {
             const int j     = row.columns[k];
             is_finite       = is_finite && std::isfinite(row.values[k]);
@@ -299,16 +271,16 @@ namespace Nacre
         rows_    = stored_;
         n_upper_ = n_stored;
       }
-    n_upper_ += A.NumMyRows();
+    n_upper_ += A.n_rows();
   }
 
 
   std::vector<int>
   MatrixPattern::fill_reducing_order(const Matrix &matrix) const
   {
-    const Epetra_CrsMatrix &A    = matrix.trilinos_matrix();
-    const MPI_Comm          comm = matrix.get_mpi_communicator();
-    const bool is_host           = Utilities::MPI::this_mpi_process(comm) == 0;
+    const SparseRows A(matrix);
+    const MPI_Comm   comm    = matrix.get_mpi_communicator();
+    const bool       is_host = Utilities::MPI::this_mpi_process(comm) == 0;
 
     const auto own            = representatives(A, stored_);
     const auto pieces         = gather_on_host(neighbourhoods(A, own), comm);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/solvers/sparse_rows.h>
 #include <nacre/solvers/symmetric_factors.h>
 
-#include <deal.II/lac/trilinos_index_access.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -32,32 +32,28 @@ namespace Nacre
                      const MatrixPattern            &pattern,
                      const bool                      with_values)
     {
-      const Epetra_CrsMatrix &A = matrix.trilinos_matrix();
+      const SparseRows A(matrix);
       rows.reserve(pattern.n_upper());
       columns.reserve(pattern.n_upper());
       values.reserve(with_values ? pattern.n_upper() : 0);
 
-      std::vector<MUMPS_INT> ids(A.NumMyCols());
+      std::vector<MUMPS_INT> ids(A.n_columns());
       for (unsigned int j = 0; j < ids.size(); ++j)
-        ids[j] = TrilinosWrappers::global_index(A.ColMap(), j) + 1;
-      for (int i = 0; i < A.NumMyRows(); ++i)
+        ids[j] = A.global_column(j) + 1;
+      for (unsigned int i = 0; i < A.n_rows(); ++i)
         {
-          int             length;
-          double         *row_values;
-          int            *row_columns;
-          const MUMPS_INT row =
-            TrilinosWrappers::global_index(A.RowMap(), i) + 1;
-          A.ExtractMyRowView(i, length, row_values, row_columns);
-          for (int k = 0; k < length; ++k)
+          const SparseRows::Row entries = A[i];
+          const MUMPS_INT       row     = A.global_row(i) + 1;
+          for (unsigned int k = 0; k < entries.length; ++k)
             {
-              const MUMPS_INT column = ids[row_columns[k]];
+              const MUMPS_INT column = ids[entries.columns[k]];
               if (column < row ||
-                  (column > row && !pattern.contains(row_values[k])))
+                  (column > row && !pattern.contains(entries.values[k])))
                 continue;
               rows.push_back(row);
               columns.push_back(column);
               if (with_values)
-                values.push_back(row_values[k]);
+                values.push_back(entries.values[k]);
             }
         }
     }

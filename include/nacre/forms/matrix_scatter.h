@@ -5,6 +5,7 @@
 #define nacre_forms_matrix_scatter_h
 
 #include <nacre/base/types.h>
+#include <nacre/solvers/sparse_rows.h>
 
 #include <deal.II/base/types.h>
 
@@ -115,10 +116,7 @@ namespace Nacre
     TrilinosWrappers::MPI::Vector   &right_hand_side_;
     /** Range of this rank's dofs. */
     const std::pair<types::global_dof_index, types::global_dof_index> range_;
-    /** The compressed rows of the sparse matrix. */
-    int    *row_starts_ = nullptr;
-    int    *columns_    = nullptr;
-    double *values_     = nullptr;
+    const SparseRows                                                  rows_;
 
     /** Columns column, column + 1, ... of a row that stand at place, ... */
     struct Interval

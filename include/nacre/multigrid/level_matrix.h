@@ -5,24 +5,16 @@
 #define nacre_multigrid_level_matrix_h
 
 #include <nacre/base/types.h>
+#include <nacre/solvers/sparse_rows.h>
 
 #include <deal.II/base/index_set.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
-
-class Epetra_CrsMatrix;
-
-namespace dealii
-{
-  namespace TrilinosWrappers
-  {
-    class SparseMatrix;
-  }
-} // namespace dealii
 
 namespace Nacre
 {
@@ -43,9 +35,6 @@ namespace Nacre
   {
   public:
     using Vector = LinearAlgebra::distributed::Vector<double>;
-
-    LevelMatrix();
-    ~LevelMatrix();
 
     /**
      * Read @p matrix, which must stay alive and unchanged unless copy_values()
@@ -166,12 +155,12 @@ namespace Nacre
 
     /** Add the rows of @p matrix. */
     void
-    add_rows(const Epetra_CrsMatrix &matrix);
+    add_rows(const SparseRows &matrix);
 
     void
     gather(const Pattern &pattern, const double *x, double *values) const;
 
-    std::unique_ptr<Epetra_CrsMatrix>                  further_rows_;
+    std::optional<SparseRows>                          further_rows_;
     std::shared_ptr<const Utilities::MPI::Partitioner> partitioner_;
 
     unsigned int         n_owned_ = 0;
