@@ -7,8 +7,7 @@
 #include <nacre/discretization/discretization.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/mechanics/linear_elastic_section.h>
-#include <nacre/problem/boundary_conditions.h>
-#include <nacre/problem/loads.h>
+#include <nacre/problem/shell_model.h>
 
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
@@ -77,8 +76,8 @@ namespace Tests
   };
 
   /**
-   * Section, conditions and loads with the parameters of a text; one object at
-   * a time.
+   * The section with the parameters of a text, no conditions and no loads; one
+   * object at a time.
    */
   struct Parameters : NoParameters
   {
@@ -95,6 +94,37 @@ namespace Tests
     Loads                loads;
   };
 
+  /** The model of the text of a parameter file; one object at a time. */
+  struct TextModel : NoParameters
+  {
+    explicit TextModel(const std::string &text, const Constants &constants = {})
+      : model(read(text, constants))
+    {}
+
+    LinearElasticSection section;
+
+  private:
+    ShellModel
+    read(const std::string &text, const Constants &constants)
+    {
+      ParameterAcceptor::declare_all_parameters();
+      ParameterAcceptor::prm.parse_input_from_string(text);
+      ParameterAcceptor::parse_all_parameters();
+      section.prepare({});
+      ShellModel result{midsurface_.make({}), section};
+      result.supports = supports_.make(result.midsurface, constants);
+      result.loads    = loads_.make(result.midsurface, constants);
+      return result;
+    }
+
+    MidsurfaceParameters        midsurface_;
+    BoundaryConditionParameters supports_;
+    LoadParameters              loads_;
+
+  public:
+    ShellModel model;
+  };
+
   inline std::string
   section_text(const double E, const double nu, const double h)
   {
@@ -109,7 +139,7 @@ namespace Tests
   {
     return element.type == ElementType::lagrange ?
              "p = " + std::to_string(element.degree) :
-             element_names()[static_cast<unsigned int>(element.type)];
+             name_of(element.type);
   }
 
   constexpr Element serendipity{ElementType::serendipity, 2};

@@ -277,11 +277,12 @@ namespace Nacre
   }
 
   std::string
-  find_torn_edge(const ShellOperator  &shell_operator,
-                 const TrilinosVector &u,
-                 const double          allowed)
+  find_torn_edge(const ShellOperator       &shell_operator,
+                 const TrilinosVector      &u,
+                 const PrescribedRotations &rotations,
+                 const double               allowed)
   {
-    const auto gap = shell_operator.largest_rotation_gap(u);
+    const auto gap = shell_operator.largest_rotation_gap(u, rotations);
     if (gap.angle <= allowed)
       return "";
     std::ostringstream text;

@@ -50,10 +50,10 @@ namespace Nacre
   NewtonSolver::Result
   DynamicStep::solve(const bool search)
   {
-    system_.keep_tangent(parameters_.keeps_tangent);
+    system_.keep_tangent(parameters_.keeps_tangent());
     auto parameters          = parameters_.newton;
     parameters.max_increment = 100. * system_.size();
-    mixes_ = conserves_ && !search && !parameters_.keeps_tangent &&
+    mixes_ = conserves_ && !search && !parameters_.keeps_tangent() &&
              parameters.damping == 1.;
     n_new_tangents_ = 2;
 

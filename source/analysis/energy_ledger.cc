@@ -31,7 +31,9 @@ namespace Nacre
     balance.is_kept = true;
     balance.kinetic = kinetic_energy(motion.v);
     balance.strain =
-      system_.shell_operator().energies(system_.with_ghosts(motion.u)).total();
+      system_.shell_operator()
+        .energies(system_.with_ghosts(motion.u), system_.actions())
+        .total();
     balance.initial              = balance.kinetic + balance.strain;
     const double round_off_speed = 1e-10 * system_.size() / dt;
     balance.largest =
@@ -72,7 +74,10 @@ namespace Nacre
                           0.,
                           step.conserves ? &step.step_start : nullptr};
     Vector        residual = system_.owned_vector();
-    system_.shell_operator().residual(mean, residual, &inertia);
+    system_.shell_operator().residual(mean,
+                                      system_.actions(),
+                                      residual,
+                                      &inertia);
     double work = 0.;
     for (const auto &[dof, move] : moves)
       work += residual(dof) * move;
@@ -100,16 +105,20 @@ namespace Nacre
     system_.set_force_time(middle);
     if (step.conserves)
       after.prescribed_work += reaction_work(step, ghosted_mean);
-    after.prescribed_work += shell.rotation_work(step.step_start, end);
+    after.prescribed_work +=
+      shell.rotation_work(step.step_start, end, system_.actions().rotations);
 
     Vector loads = system_.owned_vector();
-    shell.loads(ghosted_mean, &step.step_start.u, loads);
+    shell.loads(ghosted_mean,
+                &step.step_start.u,
+                loads,
+                system_.actions().loads);
     after.external_work += loads * change;
     if (damping_ > 0.)
       after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);
 
     after.kinetic = kinetic_energy(step.end.v);
-    after.strain  = shell.energies(end).total();
+    after.strain  = shell.energies(end, system_.actions()).total();
     after.largest = std::max({before.largest,
                               after.kinetic + after.strain,
                               std::abs(after.external_work),

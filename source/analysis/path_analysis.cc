@@ -23,7 +23,7 @@ namespace Nacre
                   parameters.spectral_radius,
                   parameters.mass_damping)
   {
-    if (parameters.type == AnalysisType::dynamic)
+    if (parameters.is_dynamic())
       {
         mass_.emplace(system.discretization(), section);
         ledger_.emplace(system, *mass_, parameters.mass_damping);
@@ -45,7 +45,7 @@ namespace Nacre
     motion.a            = motion.u;
     if (start != nullptr)
       motion.u = start->u;
-    if (parameters_.type != AnalysisType::dynamic)
+    if (!parameters_.is_dynamic())
       return state;
 
     motion.u +=
@@ -152,12 +152,12 @@ namespace Nacre
                          const double     dt,
                          const bool       line_search)
   {
-    Attempt attempt = parameters_.type == AnalysisType::dynamic ?
+    Attempt attempt = parameters_.is_dynamic() ?
                         dynamic_step(state, dt, line_search) :
                         static_step(state, dt, line_search);
     if (attempt.result.converged)
       {
-        if (parameters_.type == AnalysisType::dynamic)
+        if (parameters_.is_dynamic())
           {
             // Not a time of the step's equation, but of its results: loads
             // must be defined there.
@@ -200,11 +200,13 @@ namespace Nacre
                                     system_.with_ghosts(before->motion.u),
                                     u) :
         find_impossible_state(discretization, u);
-    const double allowed_gap = parameters_.type == AnalysisType::dynamic ?
-                                 0.75 * numbers::PI :
-                                 0.5 * numbers::PI;
+    const double allowed_gap =
+      parameters_.is_dynamic() ? 0.75 * numbers::PI : 0.5 * numbers::PI;
     if (reason.empty())
-      reason = find_torn_edge(system_.shell_operator(), u, allowed_gap);
+      reason = find_torn_edge(system_.shell_operator(),
+                              u,
+                              system_.actions().rotations,
+                              allowed_gap);
     attempt.result.converged = reason.empty();
     attempt.result.kind      = FailureKind::impossible_deformation;
   }
@@ -215,7 +217,7 @@ namespace Nacre
                             const bool       search)
   {
     system_.set_time(state.time + dt);
-    system_.keep_tangent(parameters_.keeps_tangent);
+    system_.keep_tangent(parameters_.keeps_tangent());
     auto parameters          = parameters_.newton;
     parameters.max_increment = 100. * system_.size();
     const NewtonSolver newton(parameters);

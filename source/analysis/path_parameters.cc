@@ -23,20 +23,48 @@ namespace Nacre
     }
   } // namespace
 
-  PathParameters::PathParameters()
+  const Selection<AnalysisType> &
+  selection(AnalysisType)
+  {
+    static const Selection<AnalysisType> table = {
+      {AnalysisType::linear, "linear"},
+      {AnalysisType::quasi_static, "static"},
+      {AnalysisType::relaxation, "relaxation"},
+      {AnalysisType::dynamic, "dynamic"}};
+    return table;
+  }
+
+  const Selection<LineSearch> &
+  selection(LineSearch)
+  {
+    static const Selection<LineSearch> table = {{LineSearch::automatic,
+                                                 "automatic"},
+                                                {LineSearch::always, "always"},
+                                                {LineSearch::never, "never"}};
+    return table;
+  }
+
+  const Selection<TangentUpdates> &
+  selection(TangentUpdates)
+  {
+    static const Selection<TangentUpdates> table = {
+      {TangentUpdates::every_iteration, "every iteration"},
+      {TangentUpdates::every_step, "every step"}};
+    return table;
+  }
+
+  AnalysisParameters::AnalysisParameters()
     : ParameterAcceptor("/Analysis")
   {
     add_parameter("Type",
-                  type_text_,
+                  steps_.type,
                   "linear: one solve; static: equilibria along a load path, by "
                   "Newton's method; relaxation: the same, and by dynamic "
                   "relaxation where the path is unstable; dynamic: motion in "
                   "time. All but linear take the kinematics of "
-                  "'Discretization/Kinematics'.",
-                  prm,
-                  Patterns::Selection("linear|static|relaxation|dynamic"));
+                  "'Discretization/Kinematics'.");
     add_parameter("Start from",
-                  start_from,
+                  steps_.start_from,
                   "Another run's last checkpoint, 'output/NAME', whose "
                   "displacements, and in dynamics velocities, are the start of "
                   "this path at t = 0: on the same mesh, under any loads, "
@@ -72,60 +100,52 @@ namespace Nacre
                   "with the default Load factor these are load levels. Units: "
                   "as End time.");
     add_parameter("Maximum iterations",
-                  newton.max_iterations,
+                  steps_.newton.max_iterations,
                   "Newton iterations of a step.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Increment tolerance",
-                  newton.increment_tolerance,
+                  steps_.newton.increment_tolerance,
                   "An iteration that changes no displacement by more than this "
                   "times the largest change of the step ends the step. A "
                   "residual would be no measure: round-off drowns it.",
                   prm,
                   Patterns::Double(1e-14, 1e-2));
     add_parameter("Energy tolerance",
-                  newton.energy_tolerance,
+                  steps_.newton.energy_tolerance,
                   "So does one with less work of the residual than this times "
                   "the step's largest.",
                   prm,
                   Patterns::Double(0., 1e-4));
     add_parameter("Damping of iterations",
-                  newton.damping,
+                  steps_.newton.damping,
                   "Factor of the increments, for Tangent = frozen.",
                   prm,
                   Patterns::Double(0.01, 1.));
     add_parameter("Tangent updates",
-                  tangent_updates_text_,
+                  steps_.tangent_updates,
                   "every iteration: Newton's method; every step: the factors "
                   "of the first iteration serve the whole step, which takes "
                   "more, but cheaper iterations, and tells the stability at "
-                  "its start only. Dynamic relaxation updates always.",
-                  prm,
-                  Patterns::Selection("every iteration|every step"));
+                  "its start only. Dynamic relaxation updates always.");
     add_parameter("Line search",
-                  line_search_text_,
-                  "automatic: when a step failed without it.",
-                  prm,
-                  Patterns::Selection("automatic|always|never"));
+                  steps_.line_search,
+                  "automatic: when a step failed without it.");
     add_parameter("Scheme",
-                  scheme_text_,
+                  steps_.scheme,
                   "energy momentum: conserves energy, momentum and angular "
                   "momentum with any step; newmark: the trapezoidal rule; "
                   "generalised alpha, with the spectral radius below; implicit "
                   "midpoint; implicit euler, of first order, as graphics codes "
-                  "use. All but the first may gain energy in large rotations.",
-                  prm,
-                  Patterns::Selection("newmark|generalised alpha|implicit "
-                                      "midpoint|implicit euler|energy "
-                                      "momentum"));
+                  "use. All but the first may gain energy in large rotations.");
     add_parameter("Spectral radius",
-                  spectral_radius,
+                  steps_.spectral_radius,
                   "Of generalised alpha at high frequencies: 1 keeps them, 0 "
                   "damps them out in a step.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Mass damping",
-                  mass_damping,
+                  steps_.mass_damping,
                   "Force per mass and velocity. Units: 1/time.",
                   prm,
                   Patterns::Double(0.));
@@ -138,73 +158,64 @@ namespace Nacre
                   "In dynamics, along x, y, z, expressions of x, y, z; added "
                   "to the velocity of Start from. Units: length/time.");
     add_parameter("VTU steps",
-                  vtu_steps,
+                  steps_.vtu_steps,
                   "Write the fields every so many steps, if the study writes "
                   "VTU; 0: of the last one and of the Output times only.");
     add_parameter("Checkpoint steps",
-                  checkpoint_steps,
+                  steps_.checkpoint_steps,
                   "Save the state every so many steps, for 'nacre FILE "
                   "--restart'; 0: never.");
   }
 
-  void
-  PathParameters::prepare(const Constants &constants)
+  PathParameters
+  AnalysisParameters::make(const Constants &constants) const
   {
-    const std::vector<std::string> types = {"linear",
-                                            "static",
-                                            "relaxation",
-                                            "dynamic"};
-    type                                 = static_cast<AnalysisType>(
-      std::find(types.begin(), types.end(), type_text_) - types.begin());
-    const std::vector<std::string> searches = {"automatic", "always", "never"};
-    line_search                             = static_cast<LineSearch>(
-      std::find(searches.begin(), searches.end(), line_search_text_) -
-      searches.begin());
-    keeps_tangent       = (tangent_updates_text_ == "every step");
-    const auto &schemes = time_scheme_names();
-    scheme              = static_cast<TimeScheme>(
-      std::find(schemes.begin(), schemes.end(), scheme_text_) -
-      schemes.begin());
+    PathParameters path;
+    static_cast<StepParameters &>(path) = steps_;
+    read_times(constants, path);
+    read_start(constants, path);
+    return path;
+  }
 
+  Expression
+  AnalysisParameters::load_factor(const Constants &constants) const
+  {
     const bool is_default = (load_factor_text_ == "default");
-    load_factor           = Expression(!is_default ? load_factor_text_ :
-                             type == AnalysisType::linear  ? "1" :
-                             type == AnalysisType::dynamic ? "1" :
-                                                             "t",
-                             "Analysis/Load factor",
-                             constants,
-                             "x,y,z,t");
-    prepare_times(constants);
-    prepare_start(constants);
+    return Expression(!is_default ? load_factor_text_ :
+                      steps_.is_linear() || steps_.is_dynamic() ? "1" :
+                                                                  "t",
+                      "Analysis/Load factor",
+                      constants,
+                      "x,y,z,t");
   }
 
   void
-  PathParameters::prepare_times(const Constants &constants)
+  AnalysisParameters::read_times(const Constants &constants,
+                                 PathParameters  &path) const
   {
-    end_time  = positive(end_time_text_, "End time", constants);
-    time_step = positive(time_step_text_, "Time step", constants);
-    minimum_time_step =
+    path.end_time  = positive(end_time_text_, "End time", constants);
+    path.time_step = positive(time_step_text_, "Time step", constants);
+    path.minimum_time_step =
       minimum_time_step_text_ == "default" ?
-        1e-3 * time_step :
+        1e-3 * path.time_step :
         positive(minimum_time_step_text_, "Minimum time step", constants);
-    maximum_time_step =
+    path.maximum_time_step =
       maximum_time_step_text_ == "default" ?
-        time_step :
+        path.time_step :
         positive(maximum_time_step_text_, "Maximum time step", constants);
-    AssertThrow(minimum_time_step <= time_step,
+    AssertThrow(path.minimum_time_step <= path.time_step,
                 ExcMessage("Analysis/Minimum time step: '" +
                            minimum_time_step_text_ +
                            "' is larger than the time step."));
-    AssertThrow(maximum_time_step >= time_step,
+    AssertThrow(path.maximum_time_step >= path.time_step,
                 ExcMessage("Analysis/Maximum time step: '" +
                            maximum_time_step_text_ +
                            "' is smaller than the time step."));
-    output_times.clear();
     for (const auto &text :
          Text::split(output_times_text_, ',', "Analysis/Output times"))
       {
-        output_times.push_back(positive(text, "Output times", constants));
-        AssertThrow(output_times.back() <= end_time,
+        path.output_times.push_back(positive(text, "Output times", constants));
+        AssertThrow(path.output_times.back() <= path.end_time,
                     ExcMessage("Analysis/Output times: '" + text +
                                "' is later than the End time '" +
                                end_time_text_ + "'."));
@@ -212,25 +223,27 @@ namespace Nacre
   }
 
   void
-  PathParameters::prepare_start(const Constants &constants)
+  AnalysisParameters::read_start(const Constants &constants,
+                                 PathParameters  &path) const
   {
-    initial_displacement = VectorExpression(initial_displacement_text_,
-                                            "Analysis/Initial displacement",
-                                            constants);
-    initial_velocity     = VectorExpression(initial_velocity_text_,
-                                        "Analysis/Initial velocity",
-                                        constants);
+    path.initial_displacement =
+      VectorExpression(initial_displacement_text_,
+                       "Analysis/Initial displacement",
+                       constants);
+    path.initial_velocity = VectorExpression(initial_velocity_text_,
+                                             "Analysis/Initial velocity",
+                                             constants);
     const std::pair<const char *, const VectorExpression *> motions[] = {
-      {"Initial displacement", &initial_displacement},
-      {"Initial velocity", &initial_velocity}};
+      {"Initial displacement", &path.initial_displacement},
+      {"Initial velocity", &path.initial_velocity}};
     for (const auto &[name, motion] : motions)
-      AssertThrow(type == AnalysisType::dynamic || motion->is_zero(),
+      AssertThrow(path.is_dynamic() || motion->is_zero(),
                   ExcMessage(std::string("Analysis/") + name +
-                             ": Type = " + type_text_ +
+                             ": Type = " + name_of(path.type) +
                              " doesn't use it; choose 'Type = dynamic', or "
                              "leave it out."));
-    start_from = Text::trim(start_from);
-    AssertThrow(type != AnalysisType::linear || start_from.empty(),
+    path.start_from = Text::trim(path.start_from);
+    AssertThrow(!path.is_linear() || path.start_from.empty(),
                 ExcMessage("Analysis/Start from: Type = linear solves from "
                            "the undeformed shell; choose another Type."));
   }

@@ -27,20 +27,15 @@ namespace Nacre
 
   ShellSystem::ShellSystem(const Discretization &discretization,
                            const ShellOperator  &shell_operator,
-                           BoundaryConditions   &boundary_conditions,
-                           Loads                &loads,
-                           Expression           &load_factor,
+                           const ShellModel     &model,
                            LinearSolver         &solver)
     : discretization_(discretization)
     , shell_operator_(shell_operator)
-    , boundary_conditions_(boundary_conditions)
-    , loads_(loads)
-    , load_factor_(load_factor)
+    , model_(model)
     , size_(discretization.extent().second)
     , area_(MassTerms(discretization).total())
     , solver_(solver)
   {
-    boundary_conditions_.set_load_factor(load_factor_);
     set_time(0.);
     shell_operator_.reinit_matrix(constraints(), matrix_);
   }
@@ -48,27 +43,23 @@ namespace Nacre
   void
   ShellSystem::set_time(const double time)
   {
-    load_factor_.set_time(time);
-    factor_ = load_factor_(Point<3>());
-    loads_.set_time(time, factor_);
-    boundary_conditions_.set_time(time, factor_);
-    conditions_ =
-      std::make_unique<DisplacementConditions>(discretization_,
-                                               boundary_conditions_);
+    set_load_time(time);
+    factor_     = actions_.loads.factor;
+    conditions_ = std::make_unique<DisplacementConditions>(discretization_,
+                                                           model_.supports,
+                                                           actions_.loads);
   }
 
   void
   ShellSystem::set_load_time(const double time)
   {
-    set_force_time(time);
-    boundary_conditions_.set_time(time, load_factor_(Point<3>()));
+    actions_ = shell_operator_.actions(model_.at(time));
   }
 
   void
   ShellSystem::set_force_time(const double time)
   {
-    load_factor_.set_time(time);
-    loads_.set_time(time, load_factor_(Point<3>()));
+    actions_.loads = model_.at(time);
   }
 
   ShellSystem::Vector
@@ -78,7 +69,7 @@ namespace Nacre
                             const MassTerms &mass)
   {
     Vector force = owned_vector(), damping_force = owned_vector();
-    shell_operator_.residual(with_ghosts(u), force);
+    shell_operator_.residual(with_ghosts(u), actions_, force);
     mass.vmult(damping_force, with_ghosts(v));
     force.sadd(-1., -damping, damping_force);
 
@@ -101,7 +92,11 @@ namespace Nacre
   {
     has_tangent_  = false;
     Vector unused = owned_vector();
-    shell_operator_.assemble(with_ghosts(u), constraints(), matrix_, unused);
+    shell_operator_.assemble(with_ghosts(u),
+                             actions_,
+                             constraints(),
+                             matrix_,
+                             unused);
     double trace = 0.;
     for (const auto i : discretization_.locally_owned_dofs())
       trace += matrix_.diag_element(i);
@@ -326,7 +321,8 @@ namespace Nacre
     if (keeps_tangent)
       {
         const CpuSum time(assembly_seconds_);
-        energies_ = shell_operator_.residual(u, right_hand_side, inertia);
+        energies_ =
+          shell_operator_.residual(u, actions_, right_hand_side, inertia);
         right_hand_side *= -1.;
         condense(constraints, right_hand_side);
         return std::isfinite(right_hand_side.l2_norm()) ? StepFailure() :
@@ -336,6 +332,7 @@ namespace Nacre
     {
       const CpuSum time(assembly_seconds_);
       energies_ = shell_operator_.assemble(u,
+                                           actions_,
                                            constraints,
                                            matrix_,
                                            right_hand_side,
@@ -344,7 +341,7 @@ namespace Nacre
     if (!std::isfinite(energies_.total() + right_hand_side.l2_norm() +
                        matrix_.frobenius_norm()))
       return not_finite(u);
-    if (!solver_.try_prepare({matrix_, constraints, &u}))
+    if (!solver_.try_prepare({matrix_, constraints, &u, actions_.loads}))
       return singular_tangent();
     has_tangent_ = true;
     return {};
@@ -355,7 +352,10 @@ namespace Nacre
   {
     std::string where = find_impossible_state(discretization_, u);
     if (where.empty())
-      where = find_torn_edge(shell_operator_, u, 0.5 * numbers::PI);
+      where = find_torn_edge(shell_operator_,
+                             u,
+                             actions_.rotations,
+                             0.5 * numbers::PI);
     std::ostringstream text;
     text << "the internal forces are infinite or not a number";
     if (!where.empty())
@@ -407,7 +407,7 @@ namespace Nacre
     // the free part of r . du is that of the condensed residual.
     const CpuSum time(assembly_seconds_);
     Vector       residual = owned_vector();
-    shell_operator_.residual(with_ghosts(u), residual, inertia);
+    shell_operator_.residual(with_ghosts(u), actions_, residual, inertia);
     Vector free(du);
     for (const auto &line : constraints().get_lines())
       if (line.entries.empty() &&

@@ -5,15 +5,16 @@
 
 namespace Nacre
 {
-  const std::vector<std::string> &
-  time_scheme_names()
+  const Selection<TimeScheme> &
+  selection(TimeScheme)
   {
-    static const std::vector<std::string> names = {"newmark",
-                                                   "generalised alpha",
-                                                   "implicit midpoint",
-                                                   "implicit euler",
-                                                   "energy momentum"};
-    return names;
+    static const Selection<TimeScheme> table = {
+      {TimeScheme::newmark, "newmark"},
+      {TimeScheme::generalised_alpha, "generalised alpha"},
+      {TimeScheme::implicit_midpoint, "implicit midpoint"},
+      {TimeScheme::implicit_euler, "implicit euler"},
+      {TimeScheme::energy_momentum, "energy momentum"}};
+    return table;
   }
 
   TimeIntegrator::TimeIntegrator(const TimeScheme scheme,

@@ -284,11 +284,15 @@ namespace Nacre
   } // namespace
 
 
-  Expression::Expression()                       = default;
   Expression::Expression(Expression &&) noexcept = default;
   Expression &
   Expression::operator=(Expression &&) noexcept = default;
   Expression::~Expression()                     = default;
+
+
+  Expression::Expression(const double value)
+    : value_(value)
+  {}
 
 
   Expression::Expression(const std::string &text,
@@ -327,46 +331,18 @@ namespace Nacre
 
 
   double
-  Expression::evaluate(const Point<3> &point, const double factor) const
+  Expression::operator()(const Point<3> &point, const Instant &instant) const
   {
-    const double value = factor * function_->value(point);
+    if (constant_)
+      return instant.factor * value_;
+    function_->set_time(instant.time);
+    const double value = instant.factor * function_->value(point);
     AssertThrow(std::isfinite(value),
                 ExcUndefinedValue(
                   not_finite(where_, text_, value) +
-                  describe_point(point, function_->get_time(), variables_) +
+                  describe_point(point, instant.time, variables_) +
                   "; it must be finite."));
     return value;
-  }
-
-
-  double
-  Expression::operator()(const Point<3> &point) const
-  {
-    return constant_ ? factor_ * value_ : evaluate(point, factor_);
-  }
-
-
-  double
-  Expression::value_at(const Point<3> &point,
-                       const double    time,
-                       const double    factor) const
-  {
-    if (constant_)
-      return factor * value_;
-    const double now = function_->get_time();
-    function_->set_time(time);
-    const double value = evaluate(point, factor);
-    function_->set_time(now);
-    return value;
-  }
-
-
-  void
-  Expression::set_time(const double time, const double factor)
-  {
-    if (function_ != nullptr)
-      function_->set_time(time);
-    factor_ = factor;
   }
 
 
@@ -403,20 +379,13 @@ namespace Nacre
 
 
   Tensor<1, 3>
-  VectorExpression::operator()(const Point<3> &point) const
+  VectorExpression::operator()(const Point<3> &point,
+                               const Instant  &instant) const
   {
     Tensor<1, 3> value;
     for (unsigned int c = 0; c < 3; ++c)
-      value[c] = components_[c](point);
+      value[c] = components_[c](point, instant);
     return value;
-  }
-
-
-  void
-  VectorExpression::set_time(const double time, const double factor)
-  {
-    for (Expression &component : components_)
-      component.set_time(time, factor);
   }
 
 

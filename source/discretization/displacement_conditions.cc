@@ -94,9 +94,11 @@ namespace Nacre
   DisplacementConditions::DisplacementConditions(
     const Discretization         &discretization,
     const BoundaryConditions     &boundary_conditions,
+    const Instant                &instant,
     const DisplacementConditions *finest)
     : discretization_(discretization)
     , boundary_conditions_(boundary_conditions)
+    , instant_(instant)
     , local_lines_(lines_of_rank(discretization))
   {
     if (finest != nullptr)
@@ -305,7 +307,7 @@ namespace Nacre
                      directions_of(condition.direction, edge_node, plane))
                   node.components.push_back(
                     {direction,
-                     condition.value(edge_node.position),
+                     condition.value(edge_node.position, instant_),
                      &condition.source});
               }
           }
@@ -359,7 +361,7 @@ namespace Nacre
               between.push_back({k,
                                  static_cast<unsigned int>(condition.direction),
                                  place,
-                                 condition.value(place.position),
+                                 condition.value(place.position, instant_),
                                  &condition.source});
             continue;
           }
@@ -369,7 +371,7 @@ namespace Nacre
         for (const auto &condition : support.displacements)
           node.components.push_back(
             {axis(static_cast<unsigned int>(condition.direction)),
-             condition.value(node.position),
+             condition.value(node.position, instant_),
              &condition.source});
       }
     return between;

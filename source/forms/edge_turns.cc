@@ -52,57 +52,63 @@ namespace Nacre
           return false;
       return true;
     }
+    /** Unit directions of the edge's points at an instant. */
+    Directions
+    directions(const Discretization &discretization,
+               const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+               const unsigned int                                     face,
+               const ShellEdgeValues                                 &edge,
+               const EdgeConditions &conditions,
+               const Instant        &instant)
+    {
+      const auto nodes = discretization.node_positions(cell);
+      // Other nodes don't move the edge.
+      const auto &edge_nodes = discretization.face_nodes(face);
+      Directions  u;
+      for (const unsigned int a : edge_nodes)
+        u.push_back(conditions.displacement(nodes[a], instant));
+      Directions result;
+      for (unsigned int q = 0; q < edge.n_points(); ++q)
+        {
+          const auto   &frame = edge.frame(0, q);
+          const Vector3 d0    = cross_product_3d(edge.conormal(0, q), frame.t0);
+          Vector3       d     = d0;
+          for (unsigned int k = 0; k < edge_nodes.size(); ++k)
+            {
+              const auto &dN = edge.shapes(0).gradient(q, edge_nodes[k]);
+              d += (dN[0] * (d0 * frame.a_con[0]) +
+                    dN[1] * (d0 * frame.a_con[1])) *
+                   u[k];
+            }
+          result.push_back(d / d.norm());
+        }
+      return result;
+    }
   } // namespace
 
-  EdgeTurns::EdgeTurns(const Discretization     &discretization,
-                       const BoundaryConditions &boundary_conditions)
-    : discretization_(discretization)
-    , boundary_conditions_(boundary_conditions)
-    , edge_(discretization)
-  {}
-
-  void
-  EdgeTurns::update()
+  std::vector<Tensor<2, spacedim>>
+  follow_edge_turns(const Discretization &discretization,
+                    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+                    const unsigned int                                     face,
+                    const ShellEdgeValues                                 &edge,
+                    const EdgeConditions &conditions,
+                    const Expression     &load_factor,
+                    const double          time)
   {
-    if (time_ == boundary_conditions_.time())
-      return;
-    turns_.clear();
-    for (const auto &[id, conditions] : boundary_conditions_.edges())
-      if (conditions.rotation != nullptr &&
-          boundary_conditions_.may_turn(conditions))
-        for (const auto &cell :
-             discretization_.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const auto f : cell->face_indices())
-              if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
-                turns_[{cell->active_cell_index(), f}] =
-                  follow(cell, f, conditions);
-    time_ = boundary_conditions_.time();
-  }
-
-  const EdgeTurns::Turns *
-  EdgeTurns::find(const cell_iterator &cell, const unsigned int face) const
-  {
-    const auto found = turns_.find({cell->active_cell_index(), face});
-    return found == turns_.end() ? nullptr : &found->second;
-  }
-
-  EdgeTurns::Turns
-  EdgeTurns::follow(const cell_iterator  &cell,
-                    const unsigned int    face,
-                    const EdgeConditions &conditions)
-  {
-    edge_.reinit(cell, face);
-    const double end = boundary_conditions_.time();
-    Directions   now;
-    for (unsigned int q = 0; q < edge_.n_points(); ++q)
-      now.push_back(
-        cross_product_3d(edge_.conormal(0, q), edge_.frame(0, q).t0));
-    Turns turns(now.size(), unit_symmetric_tensor<spacedim>());
+    Directions now;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      now.push_back(cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0));
+    std::vector<Tensor<2, spacedim>> turns(now.size(),
+                                           unit_symmetric_tensor<spacedim>());
 
     const std::function<void(double, double, unsigned int)> advance =
       [&](const double from, const double to, const unsigned int halvings) {
-        const auto next = directions(cell, face, conditions, to);
+        const auto next = directions(discretization,
+                                     cell,
+                                     face,
+                                     edge,
+                                     conditions,
+                                     {to, load_factor(Point<3>(), to)});
         if (halvings < n_halvings && !is_small_turn(now, next))
           {
             const double middle = 0.5 * (from + to);
@@ -116,38 +122,7 @@ namespace Nacre
       };
     advance(0., 0., n_halvings); // what is prescribed at the start
     for (unsigned int k = 0; k < n_parts; ++k)
-      advance(end * k / n_parts, end * (k + 1) / n_parts, 0);
+      advance(time * k / n_parts, time * (k + 1) / n_parts, 0);
     return turns;
-  }
-
-  std::vector<Tensor<1, spacedim>>
-  EdgeTurns::directions(const cell_iterator  &cell,
-                        const unsigned int    face,
-                        const EdgeConditions &conditions,
-                        const double          time) const
-  {
-    const auto nodes = discretization_.node_positions(cell);
-    // Other nodes don't move the edge.
-    const auto &edge_nodes = discretization_.face_nodes(face);
-    Directions  u;
-    for (const unsigned int a : edge_nodes)
-      u.push_back(
-        boundary_conditions_.displacement(conditions, nodes[a], time));
-    Directions result;
-    for (unsigned int q = 0; q < edge_.n_points(); ++q)
-      {
-        const auto   &frame = edge_.frame(0, q);
-        const Vector3 d0    = cross_product_3d(edge_.conormal(0, q), frame.t0);
-        Vector3       d     = d0;
-        for (unsigned int k = 0; k < edge_nodes.size(); ++k)
-          {
-            const auto &dN = edge_.shapes(0).gradient(q, edge_nodes[k]);
-            d +=
-              (dN[0] * (d0 * frame.a_con[0]) + dN[1] * (d0 * frame.a_con[1])) *
-              u[k];
-          }
-        result.push_back(d / d.norm());
-      }
-    return result;
   }
 } // namespace Nacre

@@ -8,42 +8,6 @@
 
 namespace Nacre
 {
-  const std::vector<std::string> &
-  membrane_strain_names()
-  {
-    static const std::vector<std::string> names = {"tied", "full", "reduced"};
-    return names;
-  }
-
-  bool
-  recovers_tied_strain(const MembraneStrain membrane_strain)
-  {
-    return membrane_strain != MembraneStrain::full;
-  }
-
-  const std::vector<std::string> &
-  edge_form_names()
-  {
-    static const std::vector<std::string> names = {"hinge", "averaged normal"};
-    return names;
-  }
-
-  const std::vector<std::string> &
-  kinematics_model_names()
-  {
-    static const std::vector<std::string> names = {"linear", "corotational"};
-    return names;
-  }
-
-  const std::vector<std::string> &
-  tangent_type_names()
-  {
-    static const std::vector<std::string> names = {"frozen",
-                                                   "symmetric",
-                                                   "consistent"};
-    return names;
-  }
-
   Energies &
   Energies::operator+=(const Energies &other)
   {

@@ -50,16 +50,18 @@ namespace Nacre
   LoadTerms::subtract_on_cell(const ShellCellValues        &values,
                               const dealii::Vector<double> &u,
                               const dealii::Vector<double> &u_start,
+                              const Instant                &instant,
                               LocalTerms                   &terms) const
   {
     if (!loads_.no_surface_load())
-      subtract_surface_loads(values, terms.residual);
+      subtract_surface_loads(values, instant, terms.residual);
     if (loads_.pressure_follows())
-      subtract_following_pressure(values, u, u_start, terms);
+      subtract_following_pressure(values, u, u_start, instant, terms);
   }
 
   void
   LoadTerms::subtract_surface_loads(const ShellCellValues  &values,
+                                    const Instant          &instant,
                                     dealii::Vector<double> &residual) const
   {
     const auto               &shapes = values.shapes();
@@ -70,7 +72,7 @@ namespace Nacre
         const double area_density = section_.density(x) * section_.thickness(x);
         const auto   load =
           values.JxW(q) *
-          loads_.force_per_area(x, values.frame(q).t0, area_density);
+          loads_.force_per_area(x, values.frame(q).t0, area_density, instant);
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             residual[dofs[spacedim * a + c]] -= shapes.value(q, a) * load[c];
@@ -81,6 +83,7 @@ namespace Nacre
   LoadTerms::subtract_following_pressure(const ShellCellValues        &values,
                                          const dealii::Vector<double> &u,
                                          const dealii::Vector<double> &u_start,
+                                         const Instant                &instant,
                                          LocalTerms &terms) const
   {
     const auto &shapes = values.shapes();
@@ -89,8 +92,8 @@ namespace Nacre
         const auto   du  = displacement_gradient(values, q, u);
         const auto  &a   = values.frame(q).a_cov;
         const auto   phi = std::array<Vector3, 2>{{a[0] + du[0], a[1] + du[1]}};
-        const double p =
-          loads_.pressure(values.point(q)) * values.JxW(q) / values.frame(q).j0;
+        const double p   = loads_.pressure(values.point(q), instant) *
+                         values.JxW(q) / values.frame(q).j0;
         Vector3 force = p * cross_product_3d(phi[0], phi[1]);
         if (u_start.size() > 0)
           {
@@ -126,6 +129,7 @@ namespace Nacre
   LoadTerms::subtract_on_edge(const types::boundary_id      id,
                               const ShellEdgeValues        &edge,
                               const dealii::Vector<double> &u,
+                              const Instant                &instant,
                               Kinematics                   &kinematics,
                               LocalTerms                   &terms) const
   {
@@ -134,7 +138,7 @@ namespace Nacre
       {
         std::vector<double> values(edge.n_points());
         for (unsigned int q = 0; q < values.size(); ++q)
-          values[q] = moment->second(edge.point(q));
+          values[q] = moment->second(edge.point(q), instant);
         kinematics.add_moment_terms(edge, values, u, terms);
       }
     const auto force = loads_.edge_forces().find(id);
@@ -143,7 +147,7 @@ namespace Nacre
     const auto &shapes = edge.shapes(0);
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        const auto f = edge.JxW(q) * force->second(edge.point(q));
+        const auto f = edge.JxW(q) * force->second(edge.point(q), instant);
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[edge.dof(0, a, c)] -= shapes.value(q, a) * f[c];
@@ -153,14 +157,15 @@ namespace Nacre
   void
   LoadTerms::add_point_forces(const AffineConstraints<double> &constraints,
                               const double                     factor,
+                              const Instant                   &instant,
                               TrilinosWrappers::MPI::Vector   &vector) const
   {
     const auto &fe = discretization_.scalar_fe();
     for (unsigned int k = 0; k < force_points_.size(); ++k)
       {
         // On all ranks: a value that isn't finite must throw on all.
-        const auto force =
-          loads_.point_forces()[k].force(loads_.point_forces()[k].position);
+        const auto &load  = loads_.point_forces()[k];
+        const auto  force = load.force(load.position, instant);
         const auto &place = force_points_[k];
         if (!place.is_mine)
           continue;

@@ -6,7 +6,6 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/forms/shell_operator.h>
-#include <nacre/problem/boundary_conditions.h>
 
 namespace Nacre
 {
@@ -32,9 +31,10 @@ namespace Nacre
   } // namespace
 
   void
-  ShellOperator::loads(const Vector &u,
-                       const Vector *u_start,
-                       Vector       &result) const
+  ShellOperator::loads(const Vector  &u,
+                       const Vector  *u_start,
+                       Vector        &result,
+                       const Instant &instant) const
   {
     result                                          = 0.;
     const auto                           kinematics = kinematics_->clone();
@@ -57,6 +57,7 @@ namespace Nacre
                                          extract(u, dofs),
                                          u_start ? extract(*u_start, dofs) :
                                                    none,
+                                         instant,
                                          terms);
             add(terms.residual, dofs, result);
             for (const auto f : cell->face_indices())
@@ -68,6 +69,7 @@ namespace Nacre
                   load_terms_.subtract_on_edge(cell->face(f)->boundary_id(),
                                                edge,
                                                extract(u, edge.dof_indices()),
+                                               instant,
                                                *kinematics,
                                                terms);
                   add(terms.residual, edge.dof_indices(), result);
@@ -78,76 +80,33 @@ namespace Nacre
     result *= -1.;
     AffineConstraints<double> free;
     free.close();
-    load_terms_.add_point_forces(free, 1., result);
-  }
-
-  PrescribedRotations
-  ShellOperator::prescribed_rotations() const
-  {
-    PrescribedRotations rotations;
-    ShellEdgeValues     edge(discretization_);
-    run_on_all_ranks(discretization_.communicator(), [&]() {
-      turns_.update();
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto f : cell->face_indices())
-            {
-              if (!cell->at_boundary(f))
-                continue;
-              const auto id         = cell->face(f)->boundary_id();
-              const auto conditions = boundary_conditions_.edges().find(id);
-              if (conditions == boundary_conditions_.edges().end() ||
-                  conditions->second.rotation == nullptr)
-                continue;
-              edge.reinit(cell, f);
-              rotations[{cell->active_cell_index(), f}] =
-                prescribed_rotations(cell,
-                                     f,
-                                     *conditions->second.rotation,
-                                     edge);
-            }
-    });
-    return rotations;
+    load_terms_.add_point_forces(free, 1., instant, result);
   }
 
   double
-  ShellOperator::rotation_work(const StepStart &start,
-                               const Vector    &u_end) const
+  ShellOperator::rotation_work(const StepStart           &start,
+                               const Vector              &u_end,
+                               const PrescribedRotations &end) const
   {
     const auto      kinematics = kinematics_->clone();
     ShellEdgeValues edge(discretization_);
     LocalTerms      terms;
     double          sum = 0.;
     terms.wants_tangent = false;
-    run_on_all_ranks(discretization_.communicator(), [&]() {
-      turns_.update();
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto f : cell->face_indices())
-            {
-              const auto before =
-                start.rotations.find({cell->active_cell_index(), f});
-              if (before == start.rotations.end())
-                continue;
-              edge.reinit(cell, f);
-              terms.reinit(edge.n_dofs());
-              kinematics->add_rotation_step_terms(
-                edge,
-                penalty_.boundary(cell),
-                before->second,
-                prescribed_rotations(cell,
-                                     f,
-                                     *boundary_conditions_.edges()
-                                        .at(cell->face(f)->boundary_id())
-                                        .rotation,
-                                     edge),
-                extract(start.u, edge.dof_indices()),
-                extract(u_end, edge.dof_indices()),
-                terms);
-              sum += terms.rotation_work;
-            }
+    for_each_rotation([&](const Cell        &cell,
+                          const unsigned int f,
+                          const EdgeConditions &) {
+      const std::pair<unsigned, unsigned> place{cell->active_cell_index(), f};
+      edge.reinit(cell, f);
+      terms.reinit(edge.n_dofs());
+      kinematics->add_rotation_step_terms(edge,
+                                          penalty_.boundary(cell),
+                                          start.rotations.at(place),
+                                          end.at(place),
+                                          extract(start.u, edge.dof_indices()),
+                                          extract(u_end, edge.dof_indices()),
+                                          terms);
+      sum += terms.rotation_work;
     });
     return Utilities::MPI::sum(sum, discretization_.communicator());
   }

@@ -5,8 +5,7 @@
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/forms/shell_pattern.h>
-#include <nacre/problem/boundary_conditions.h>
-#include <nacre/problem/loads.h>
+#include <nacre/problem/shell_model.h>
 
 #include <deal.II/meshworker/mesh_loop.h>
 
@@ -149,12 +148,24 @@ namespace Nacre
     u_end.sadd(2., -1., u_start);
   }
 
+  ShellOperator::ShellOperator(const Discretization &discretization,
+                               const ShellModel     &model)
+    : ShellOperator(discretization,
+                    model.section,
+                    model.supports,
+                    model.loads,
+                    model.kinematics,
+                    model.eta,
+                    model.load_factor ? &*model.load_factor : nullptr)
+  {}
+
   ShellOperator::ShellOperator(const Discretization        &discretization,
                                const SectionLaw            &section,
                                const BoundaryConditions    &boundary_conditions,
                                const Loads                 &loads,
                                const KinematicsOptions     &kinematics_options,
-                               const std::optional<double> &eta)
+                               const std::optional<double> &eta,
+                               const Expression            *load_factor)
     : discretization_(discretization)
     , section_(section)
     , boundary_conditions_(boundary_conditions)
@@ -168,7 +179,7 @@ namespace Nacre
     , kinematics_(make_kinematics(discretization, section, kinematics_options))
     , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
     , has_deformed_levers_(kinematics_options.model != KinematicsModel::linear)
-    , turns_(discretization, boundary_conditions)
+    , load_factor_(load_factor)
   {
     AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
                 ExcMessage("Loads/Pressure: neighbouring cells have opposite "
@@ -188,24 +199,28 @@ namespace Nacre
                                  Matrix                          &matrix,
                                  Vector &right_hand_side) const
   {
-    assemble_at(nullptr, nullptr, constraints, matrix, right_hand_side);
+    const ShellActions at_start = actions(Instant());
+    assemble_at({nullptr, at_start, nullptr},
+                constraints,
+                matrix,
+                right_hand_side);
   }
 
   Energies
   ShellOperator::assemble(const Vector                    &u,
+                          const ShellActions              &actions,
                           const AffineConstraints<double> &constraints,
                           Matrix                          &matrix,
                           Vector                          &right_hand_side,
                           const Inertia                   *inertia) const
   {
     return sum_over_ranks(
-      assemble_at(&u, inertia, constraints, matrix, right_hand_side),
+      assemble_at({&u, actions, inertia}, constraints, matrix, right_hand_side),
       discretization_.communicator());
   }
 
   Energies
-  ShellOperator::assemble_at(const Vector                    *u,
-                             const Inertia                   *inertia,
+  ShellOperator::assemble_at(const State                     &state,
                              const AffineConstraints<double> &constraints,
                              Matrix                          &matrix,
                              Vector &right_hand_side) const
@@ -216,13 +231,13 @@ namespace Nacre
     dealii::Vector<double> force;
     FullMatrix<double>     tangent;
     Energies               sum;
-    loop(u, inertia, true, [&](const CopyData &copy) {
+    loop(state, true, [&](const CopyData &copy) {
       copy.for_each([&](const LocalTerms  &terms,
                         const auto        &dofs,
                         const unsigned int n_done) {
         force = terms.residual;
         force *= -1.;
-        if (u == nullptr || !symmetrizes_)
+        if (state.u == nullptr || !symmetrizes_)
           scatter.add(terms.tangent, force, dofs, n_done);
         else
           {
@@ -237,18 +252,22 @@ namespace Nacre
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);
-    load_terms_.add_point_forces(constraints, 1., right_hand_side);
+    load_terms_.add_point_forces(constraints,
+                                 1.,
+                                 state.actions.loads,
+                                 right_hand_side);
     return sum;
   }
 
   Energies
-  ShellOperator::residual(const Vector  &u,
-                          Vector        &result,
-                          const Inertia *inertia) const
+  ShellOperator::residual(const Vector       &u,
+                          const ShellActions &actions,
+                          Vector             &result,
+                          const Inertia      *inertia) const
   {
     result = 0.;
     Energies sum;
-    loop(&u, inertia, false, [&](const CopyData &copy) {
+    loop({&u, actions, inertia}, false, [&](const CopyData &copy) {
       copy.for_each(
         [&](const LocalTerms &terms, const auto &dofs, unsigned int) {
           result.add(dofs,
@@ -260,36 +279,33 @@ namespace Nacre
     result.compress(VectorOperation::add);
     AffineConstraints<double> none;
     none.close();
-    load_terms_.add_point_forces(none, -1., result);
+    load_terms_.add_point_forces(none, -1., actions.loads, result);
     return sum_over_ranks(sum, discretization_.communicator());
   }
 
   Energies
-  ShellOperator::energies(const Vector &u) const
+  ShellOperator::energies(const Vector &u, const ShellActions &actions) const
   {
     Vector result(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
-    return residual(u, result);
+    return residual(u, actions, result);
   }
 
   void
-  ShellOperator::loop(const Vector  *u,
-                      const Inertia *inertia,
-                      const bool     wants_tangent,
-                      const Copier  &copier) const
+  ShellOperator::loop(const State  &state,
+                      const bool    wants_tangent,
+                      const Copier &copier) const
   {
-    using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
-    const StepStart *const start =
-      inertia != nullptr ? inertia->start : nullptr;
+    const StepStart *const start = state.start();
 
     const auto cell_worker =
-      [&](const Iterator &cell, ScratchData &scratch, CopyData &copy) {
-        this->cell_worker(cell, u, inertia, scratch, copy);
+      [&](const Cell &cell, ScratchData &scratch, CopyData &copy) {
+        this->cell_worker(cell, state, scratch, copy);
       };
-    const auto face_worker = [&](const Iterator    &cell,
+    const auto face_worker = [&](const Cell        &cell,
                                  const unsigned int f,
                                  const unsigned int sf,
-                                 const Iterator    &neighbor,
+                                 const Cell        &neighbor,
                                  const unsigned int nf,
                                  const unsigned int nsf,
                                  ScratchData       &scratch,
@@ -298,7 +314,7 @@ namespace Nacre
       FaceCopy &face = copy.next_face();
       face.dofs      = scratch.edge.dof_indices();
       face.terms.reinit(face.dofs.size());
-      extract(u, face.dofs, scratch.u);
+      extract(state.u, face.dofs, scratch.u);
       const double penalty = penalty_.interior(cell, neighbor);
       if (start == nullptr)
         scratch.kinematics->add_edge_terms(scratch.edge,
@@ -316,18 +332,17 @@ namespace Nacre
         }
       copy.take_block(face);
     };
-    const auto boundary_worker = [&](const Iterator    &cell,
+    const auto boundary_worker = [&](const Cell        &cell,
                                      const unsigned int f,
                                      ScratchData       &scratch,
                                      CopyData          &copy) {
-      this->boundary_worker(cell, f, u, start, scratch, copy);
+      this->boundary_worker(cell, f, state, scratch, copy);
     };
 
     CopyData copy;
     copy.wants_tangent = wants_tangent;
     // The user's expressions may be undefined on the cells of one rank only.
     run_on_all_ranks(discretization_.communicator(), [&]() {
-      turns_.update();
       MeshWorker::mesh_loop(discretization_.dof_handler().begin_active(),
                             discretization_.dof_handler().end(),
                             cell_worker,
@@ -344,23 +359,21 @@ namespace Nacre
   }
 
   void
-  ShellOperator::cell_worker(
-    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-    const Vector                                          *u,
-    const Inertia                                         *inertia,
-    ScratchData                                           &scratch,
-    CopyData                                              &copy) const
+  ShellOperator::cell_worker(const Cell  &cell,
+                             const State &state,
+                             ScratchData &scratch,
+                             CopyData    &copy) const
   {
     copy.terms.wants_tangent = copy.wants_tangent;
     copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
     cell->get_dof_indices(copy.dofs);
     copy.terms.reinit(copy.dofs.size());
-    extract(u, copy.dofs, scratch.u);
-    if (inertia == nullptr || inertia->start == nullptr)
+    extract(state.u, copy.dofs, scratch.u);
+    if (state.start() == nullptr)
       scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
     else
       {
-        scratch.set_ends(*inertia->start, copy.dofs);
+        scratch.set_ends(*state.start(), copy.dofs);
         scratch.kinematics->add_cell_step_terms(cell,
                                                 scratch.u_start,
                                                 scratch.u_end,
@@ -369,28 +382,27 @@ namespace Nacre
     load_terms_.subtract_on_cell(scratch.kinematics->cell_values(),
                                  scratch.u,
                                  scratch.u_start,
+                                 state.actions.loads,
                                  copy.terms);
-    if (inertia != nullptr)
-      inertia->add(cell,
-                   copy.dofs,
-                   discretization_.node_dofs(),
-                   copy.terms.residual,
-                   copy.wants_tangent ? &copy.terms.tangent : nullptr);
+    if (state.inertia != nullptr)
+      state.inertia->add(cell,
+                         copy.dofs,
+                         discretization_.node_dofs(),
+                         copy.terms.residual,
+                         copy.wants_tangent ? &copy.terms.tangent : nullptr);
   }
 
   void
-  ShellOperator::boundary_worker(
-    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-    const unsigned int                                     f,
-    const Vector                                          *u,
-    const StepStart                                       *start,
-    ScratchData                                           &scratch,
-    CopyData                                              &copy) const
+  ShellOperator::boundary_worker(const Cell        &cell,
+                                 const unsigned int f,
+                                 const State       &state,
+                                 ScratchData       &scratch,
+                                 CopyData          &copy) const
   {
-    const auto id         = cell->face(f)->boundary_id();
-    const auto conditions = boundary_conditions_.edges().find(id);
-    const bool rotates    = (conditions != boundary_conditions_.edges().end() &&
-                          conditions->second.rotation != nullptr);
+    const auto                          id = cell->face(f)->boundary_id();
+    const std::pair<unsigned, unsigned> place{cell->active_cell_index(), f};
+    const auto rotation = state.actions.rotations.find(place);
+    const bool rotates  = (rotation != state.actions.rotations.end());
     if (!rotates && !load_terms_.act_on(id))
       return;
 
@@ -398,90 +410,31 @@ namespace Nacre
     FaceCopy &face = copy.next_face();
     face.dofs      = scratch.edge.dof_indices();
     face.terms.reinit(face.dofs.size());
-    extract(u, face.dofs, scratch.u);
-    if (rotates && start == nullptr)
-      scratch.kinematics->add_rotation_terms(
-        scratch.edge,
-        penalty_.boundary(cell),
-        prescribed_rotations(cell,
-                             f,
-                             *conditions->second.rotation,
-                             scratch.edge),
-        scratch.u,
-        face.terms);
+    extract(state.u, face.dofs, scratch.u);
+    if (rotates && state.start() == nullptr)
+      scratch.kinematics->add_rotation_terms(scratch.edge,
+                                             penalty_.boundary(cell),
+                                             rotation->second,
+                                             scratch.u,
+                                             face.terms);
     else if (rotates)
       {
-        scratch.set_ends(*start, face.dofs);
-        scratch.kinematics->add_rotation_step_terms(
-          scratch.edge,
-          penalty_.boundary(cell),
-          start->rotations.at({cell->active_cell_index(), f}),
-          prescribed_rotations(cell,
-                               f,
-                               *conditions->second.rotation,
-                               scratch.edge),
-          scratch.u_start,
-          scratch.u_end,
-          face.terms);
+        scratch.set_ends(*state.start(), face.dofs);
+        scratch.kinematics->add_rotation_step_terms(scratch.edge,
+                                                    penalty_.boundary(cell),
+                                                    state.start()->rotations.at(
+                                                      place),
+                                                    rotation->second,
+                                                    scratch.u_start,
+                                                    scratch.u_end,
+                                                    face.terms);
       }
     load_terms_.subtract_on_edge(id,
                                  scratch.edge,
                                  scratch.u,
+                                 state.actions.loads,
                                  *scratch.kinematics,
                                  face.terms);
     copy.take_block(face);
-  }
-
-  Tensor<1, spacedim>
-  ShellOperator::rotation_reaction(const types::boundary_id id,
-                                   const Vector            &u) const
-  {
-    Tensor<1, spacedim> sum;
-    const auto          conditions = boundary_conditions_.edges().find(id);
-    if (conditions != boundary_conditions_.edges().end() &&
-        conditions->second.rotation != nullptr)
-      {
-        run_on_all_ranks(discretization_.communicator(),
-                         [&]() { turns_.update(); });
-        ScratchData scratch(discretization_, *kinematics_);
-        LocalTerms  terms;
-        terms.wants_tangent = false;
-        for (const auto &cell :
-             discretization_.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const auto f : cell->face_indices())
-              if (cell->at_boundary(f) && cell->face(f)->boundary_id() == id)
-                {
-                  auto &edge = scratch.edge;
-                  edge.reinit(cell, f);
-                  const auto rotation =
-                    prescribed_rotations(cell,
-                                         f,
-                                         *conditions->second.rotation,
-                                         edge);
-                  terms.reinit(edge.n_dofs());
-                  extract(&u, edge.dof_indices(), scratch.u);
-                  scratch.kinematics->add_rotation_terms(edge,
-                                                         penalty_.boundary(
-                                                           cell),
-                                                         rotation,
-                                                         scratch.u,
-                                                         terms);
-                  // Virtual work on the rigid rotation e_k x x.
-                  const auto nodes = discretization_.node_positions(cell);
-                  for (unsigned int a = 0; a < nodes.size(); ++a)
-                    {
-                      Tensor<1, spacedim> x(nodes[a]), force;
-                      for (unsigned int c = 0; c < spacedim; ++c)
-                        {
-                          force[c] = terms.residual[edge.dof(0, a, c)];
-                          if (has_deformed_levers_)
-                            x[c] += scratch.u[edge.dof(0, a, c)];
-                        }
-                      sum += cross_product_3d(x, force);
-                    }
-                }
-      }
-    return Utilities::MPI::sum(sum, discretization_.communicator());
   }
 } // namespace Nacre

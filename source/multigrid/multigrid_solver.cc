@@ -9,7 +9,7 @@
 #include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/multigrid/patch_smoother.h>
 #include <nacre/multigrid/vertex_patches.h>
-#include <nacre/problem/midsurface.h>
+#include <nacre/problem/shell_model.h>
 #include <nacre/solvers/direct_solver.h>
 
 #include <deal.II/fe/mapping_q.h>
@@ -80,10 +80,12 @@ namespace Nacre
   };
 
 
-  MultigridSolver::MultigridSolver(const Discretization   &fine,
-                                   const ShellDescription &shell,
-                                   const Parameters       &parameters)
-    : shell_(shell)
+  MultigridSolver::MultigridSolver(const Discretization         &fine,
+                                   const ShellModel             &model,
+                                   const Parameters             &parameters,
+                                   const DisplacementConditions *conditions)
+    : model_(model)
+    , conditions_(conditions)
     , parameters_(parameters)
     , mapping_degree_(0)
   {
@@ -130,25 +132,21 @@ namespace Nacre
       element.degree = lowest_degree;
     auto level                = std::make_unique<Level>();
     level->own_discretization = std::make_unique<Discretization>(
-      has_coarser_mesh ? coarsen(shell_.midsurface, fine.triangulation()) :
-                         copy(shell_.midsurface, fine.triangulation()),
+      has_coarser_mesh ? coarsen(model_.midsurface, fine.triangulation()) :
+                         copy(model_.midsurface, fine.triangulation()),
       [this](const auto &cell, const auto &unit) {
-        return shell_.midsurface.position(cell, unit);
+        return model_.midsurface.position(cell, unit);
       },
       element,
       mapping_degree_);
     level->own_discretization->set_coarse_level();
     level->conditions =
       std::make_unique<DisplacementConditions>(*level->own_discretization,
-                                               shell_.boundary_conditions,
-                                               shell_.conditions);
+                                               model_.supports,
+                                               Instant(),
+                                               conditions_);
     level->shell_operator =
-      std::make_unique<ShellOperator>(*level->own_discretization,
-                                      shell_.section,
-                                      shell_.boundary_conditions,
-                                      shell_.loads,
-                                      shell_.kinematics_options,
-                                      shell_.eta);
+      std::make_unique<ShellOperator>(*level->own_discretization, model_);
     level->discretization = level->own_discretization.get();
     if (level->discretization->dof_handler().n_dofs() >=
         fine.dof_handler().n_dofs())
@@ -186,7 +184,7 @@ namespace Nacre
 
 
   void
-  MultigridSolver::assemble_coarse_levels(const TrilinosVector *finest_u)
+  MultigridSolver::assemble_coarse_levels(const LinearSystem &system)
   {
     TrilinosVector u;
     for (unsigned int l = 1; l < n_levels(); ++l)
@@ -197,7 +195,7 @@ namespace Nacre
                               level.discretization->communicator());
         if (level.own_matrix.m() == 0)
           level.shell_operator->reinit_matrix(constraints, level.own_matrix);
-        if (finest_u == nullptr)
+        if (system.u == nullptr)
           {
             level.shell_operator->assemble_system(constraints,
                                                   level.own_matrix,
@@ -205,10 +203,12 @@ namespace Nacre
             continue;
           }
         const TrilinosVector coarse_u =
-          levels_[l - 1]->to_coarser->interpolate(l == 1 ? *finest_u : u);
+          levels_[l - 1]->to_coarser->interpolate(l == 1 ? *system.u : u);
         u.reinit(coarse_u);
         u = coarse_u;
         level.shell_operator->assemble(u,
+                                       level.shell_operator->actions(
+                                         system.instant),
                                        constraints,
                                        level.own_matrix,
                                        unused);
@@ -222,7 +222,7 @@ namespace Nacre
     has_solved_ = false;
     if (levels_.back()->direct == nullptr)
       connect_levels(system.constraints);
-    assemble_coarse_levels(system.u);
+    assemble_coarse_levels(system);
     bool is_definite = true;
     // Coarse matrices give memory back before the finest level takes it.
     for (unsigned int l = n_levels(); l-- > 0;)

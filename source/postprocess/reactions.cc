@@ -211,7 +211,9 @@ namespace Nacre
       Vector3 moment;
       for (const auto id : edges)
         moment -=
-          shell.shell_operator.rotation_reaction(id, shell.displacement);
+          shell.shell_operator.rotation_reaction(id,
+                                                 shell.displacement,
+                                                 shell.actions.rotations);
       return moment;
     }
   } // namespace
@@ -282,7 +284,10 @@ namespace Nacre
 
     Vector f(shell.discretization.locally_owned_dofs(),
              shell.discretization.communicator());
-    shell.shell_operator.loads(shell.displacement, nullptr, f);
+    shell.shell_operator.loads(shell.displacement,
+                               nullptr,
+                               f,
+                               shell.actions.loads);
     loads = resultant(shell, f, origin);
     if (shell.mass == nullptr && !has_deformed_levers(shell))
       return;

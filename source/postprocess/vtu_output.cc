@@ -21,6 +21,14 @@
 
 namespace Nacre
 {
+  const Selection<FieldFormat> &
+  selection(FieldFormat)
+  {
+    static const Selection<FieldFormat> table = {{FieldFormat::vtu, "vtu"},
+                                                 {FieldFormat::hdf5, "hdf5"}};
+    return table;
+  }
+
   namespace
   {
     namespace Interpretation = DataComponentInterpretation;

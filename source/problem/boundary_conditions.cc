@@ -41,6 +41,14 @@ namespace Nacre
       return Text::entries(text, edges_parameter, "edge", "u=0: clamped");
     }
 
+    bool
+    is_along_axis(const DisplacementCondition &condition)
+    {
+      return condition.direction == Direction::x ||
+             condition.direction == Direction::y ||
+             condition.direction == Direction::z;
+    }
+
     DisplacementCondition
     component(const std::string &key,
               const std::string &value,
@@ -53,15 +61,115 @@ namespace Nacre
             direction,
             Expression(value, where + " (" + key + ")", constants, "x,y,z,t"),
             where + ": " + key + " = " + value};
-      auto names = BoundaryConditions::condition_names();
+      auto names = BoundaryConditionParameters::condition_names();
       AssertThrow(false,
                   ExcMessage(
                     Text::unknown_name(where, "condition", key, names)));
       return {Direction::x, Expression(), ""};
     }
+
+    void
+    add_edge_item(EdgeConditions    &conditions,
+                  const std::string &item,
+                  const std::string &where,
+                  const Constants   &constants)
+    {
+      const auto add = [&](const Direction direction) {
+        conditions.displacements.push_back(
+          {direction, Expression(), where + ": " + item});
+      };
+      const auto add_rotation = [&](const std::string &text) {
+        AssertThrow(conditions.rotation == nullptr,
+                    ExcMessage(where + ": '" + item +
+                               "' prescribes the rotation a second time."));
+        conditions.rotation =
+          std::make_unique<Expression>(text,
+                                       where + " (rotation)",
+                                       constants,
+                                       "x,y,z,t");
+      };
+
+      const auto [key, value] = Text::key_and_value(item);
+      if (value.empty())
+        {
+          if (item == "free")
+            return;
+          if (item == "fixed" || item == "clamped")
+            for (const auto direction :
+                 {Direction::x, Direction::y, Direction::z})
+              add(direction);
+          else if (item == "symmetry")
+            add(Direction::plane_normal);
+          else if (item == "diaphragm")
+            add(Direction::within_plane);
+          else
+            {
+              const auto names = BoundaryConditionParameters::condition_names();
+              AssertThrow(std::find(names.begin(), names.end(), key) ==
+                            names.end(),
+                          ExcMessage(where + ": '" + item +
+                                     "' needs a value: write '" + key +
+                                     " = 0'."));
+              AssertThrow(
+                false,
+                ExcMessage(
+                  Text::unknown_name(where, "condition", item, names)));
+            }
+          if (item == "clamped" || item == "symmetry")
+            add_rotation("0");
+        }
+      else if (key == "rotation")
+        add_rotation(value);
+      else
+        {
+          auto condition = component(key, value, where, constants);
+          for (const auto &other : conditions.displacements)
+            AssertThrow(other.direction != condition.direction,
+                        ExcMessage(where + ": '" + item + "' prescribes '" +
+                                   key + "' a second time."));
+          conditions.displacements.push_back(std::move(condition));
+        }
+    }
+
+    void
+    add_edge(BoundaryConditions             &result,
+             const Midsurface               &midsurface,
+             const std::string              &name,
+             const std::vector<std::string> &items,
+             const Constants                &constants)
+    {
+      const auto ids   = midsurface.edge_ids(name, edges_parameter);
+      const auto plain = Text::unquoted(name);
+      const auto where = edges_parameter + ", edge '" + plain + "'";
+      AssertThrow(!items.empty(),
+                  ExcMessage(where +
+                             " has no condition; write 'free' if that is "
+                             "meant."));
+      auto first = numbers::invalid_boundary_id;
+      for (const auto id : ids)
+        {
+          auto &conditions = result.edge(id);
+          AssertThrow(conditions.name != plain,
+                      ExcMessage(where + " has conditions twice; write all of "
+                                         "them in one entry."));
+          AssertThrow(conditions.name.empty() || conditions.items == items,
+                      ExcMessage(where + ": " + midsurface.describe_side(id) +
+                                 " has other conditions by the name '" +
+                                 conditions.name +
+                                 "'; one side can't have both."));
+          if (!conditions.name.empty())
+            continue;
+          first            = std::min(first, id);
+          conditions.edge  = first;
+          conditions.name  = plain;
+          conditions.items = items;
+          for (const auto &item : items)
+            add_edge_item(conditions, item, where, constants);
+        }
+    }
   } // namespace
 
-  BoundaryConditions::BoundaryConditions()
+  BoundaryConditionParameters::BoundaryConditionParameters()
     : ParameterAcceptor("/Boundary conditions")
   {
     add_parameter(
@@ -84,7 +192,7 @@ namespace Nacre
   }
 
   std::vector<std::string>
-  BoundaryConditions::condition_names()
+  BoundaryConditionParameters::condition_names()
   {
     std::vector<std::string> names =
       {"free", "fixed", "clamped", "symmetry", "diaphragm", "rotation"};
@@ -93,104 +201,8 @@ namespace Nacre
     return names;
   }
 
-  void
-  BoundaryConditions::add_edge_item(EdgeConditions    &conditions,
-                                    const std::string &item,
-                                    const std::string &where,
-                                    const Constants   &constants) const
-  {
-    const auto add = [&](const Direction direction) {
-      conditions.displacements.push_back(
-        {direction, Expression(), where + ": " + item});
-    };
-    const auto add_rotation = [&](const std::string &text) {
-      AssertThrow(conditions.rotation == nullptr,
-                  ExcMessage(where + ": '" + item +
-                             "' prescribes the rotation a second time."));
-      conditions.rotation = std::make_unique<Expression>(text,
-                                                         where + " (rotation)",
-                                                         constants,
-                                                         "x,y,z,t");
-    };
-
-    const auto [key, value] = Text::key_and_value(item);
-    if (value.empty())
-      {
-        if (item == "free")
-          return;
-        if (item == "fixed" || item == "clamped")
-          for (const auto direction :
-               {Direction::x, Direction::y, Direction::z})
-            add(direction);
-        else if (item == "symmetry")
-          add(Direction::plane_normal);
-        else if (item == "diaphragm")
-          add(Direction::within_plane);
-        else
-          {
-            const auto names = condition_names();
-            AssertThrow(std::find(names.begin(), names.end(), key) ==
-                          names.end(),
-                        ExcMessage(where + ": '" + item +
-                                   "' needs a value: write '" + key +
-                                   " = 0'."));
-            AssertThrow(false,
-                        ExcMessage(
-                          Text::unknown_name(where, "condition", item, names)));
-          }
-        if (item == "clamped" || item == "symmetry")
-          add_rotation("0");
-      }
-    else if (key == "rotation")
-      add_rotation(value);
-    else
-      {
-        auto condition = component(key, value, where, constants);
-        for (const auto &other : conditions.displacements)
-          AssertThrow(other.direction != condition.direction,
-                      ExcMessage(where + ": '" + item + "' prescribes '" + key +
-                                 "' a second time."));
-        conditions.displacements.push_back(std::move(condition));
-      }
-  }
-
-  void
-  BoundaryConditions::add_edge(const Midsurface               &midsurface,
-                               const std::string              &name,
-                               const std::vector<std::string> &items,
-                               const Constants                &constants)
-  {
-    const auto ids   = midsurface.edge_ids(name, edges_parameter);
-    const auto plain = Text::unquoted(name);
-    const auto where = edges_parameter + ", edge '" + plain + "'";
-    AssertThrow(!items.empty(),
-                ExcMessage(where + " has no condition; write 'free' if that is "
-                                   "meant."));
-    auto first = numbers::invalid_boundary_id;
-    for (const auto id : ids)
-      {
-        auto &conditions = edges_[id];
-        AssertThrow(conditions.name != plain,
-                    ExcMessage(where + " has conditions twice; write all of "
-                                       "them in one entry."));
-        AssertThrow(conditions.name.empty() || conditions.items == items,
-                    ExcMessage(where + ": " + midsurface.describe_side(id) +
-                               " has other conditions by the name '" +
-                               conditions.name +
-                               "'; one side can't have both."));
-        if (!conditions.name.empty())
-          continue;
-        first            = std::min(first, id);
-        conditions.edge  = first;
-        conditions.name  = plain;
-        conditions.items = items;
-        for (const auto &item : items)
-          add_edge_item(conditions, item, where, constants);
-      }
-  }
-
   std::vector<std::string>
-  BoundaryConditions::named_edges() const
+  BoundaryConditionParameters::named_edges() const
   {
     std::vector<std::string> names;
     for (const auto &entry : entries_of_edges(edges_text_))
@@ -198,15 +210,15 @@ namespace Nacre
     return names;
   }
 
-  void
-  BoundaryConditions::prepare(const Midsurface &midsurface,
-                              const Constants  &constants)
+  BoundaryConditions
+  BoundaryConditionParameters::make(const Midsurface &midsurface,
+                                    const Constants  &constants) const
   {
-    edges_.clear();
-    points_.clear();
+    BoundaryConditions result;
     for (const auto &entry : entries_of_edges(edges_text_))
       for (const auto &name : entry.names)
-        add_edge(midsurface,
+        add_edge(result,
+                 midsurface,
                  name,
                  Text::split(entry.value,
                              ',',
@@ -242,49 +254,16 @@ namespace Nacre
               support.displacements.push_back(
                 component(key, value, support.source, constants));
           }
-        points_.push_back(std::move(support));
+        result.add_point(std::move(support));
       }
+    return result;
   }
-
-  void
-  BoundaryConditions::set_time(const double time, const double factor)
-  {
-    time_ = time;
-    for (auto &[id, conditions] : edges_)
-      {
-        for (auto &condition : conditions.displacements)
-          condition.value.set_time(time, factor);
-        if (conditions.rotation != nullptr)
-          conditions.rotation->set_time(time, factor);
-      }
-    for (auto &support : points_)
-      for (auto &condition : support.displacements)
-        condition.value.set_time(time, factor);
-  }
-
-  void
-  BoundaryConditions::set_load_factor(const Expression &load_factor)
-  {
-    load_factor_ = &load_factor;
-  }
-
-  namespace
-  {
-    bool
-    is_along_axis(const DisplacementCondition &condition)
-    {
-      return condition.direction == Direction::x ||
-             condition.direction == Direction::y ||
-             condition.direction == Direction::z;
-    }
-  } // namespace
 
   bool
-  BoundaryConditions::may_turn(const EdgeConditions &conditions) const
+  EdgeConditions::may_turn() const
   {
-    return load_factor_ != nullptr &&
-           std::any_of(conditions.displacements.begin(),
-                       conditions.displacements.end(),
+    return std::any_of(displacements.begin(),
+                       displacements.end(),
                        [](const DisplacementCondition &condition) {
                          return is_along_axis(condition) &&
                                 !condition.value.is_constant();
@@ -292,28 +271,48 @@ namespace Nacre
   }
 
   Tensor<1, 3>
-  BoundaryConditions::displacement(const EdgeConditions &conditions,
-                                   const Point<3>       &point,
-                                   const double          time) const
+  EdgeConditions::displacement(const Point<3> &point,
+                               const Instant  &instant) const
   {
-    const double factor = load_factor_->value_at(Point<3>(), time, 1.);
     Tensor<1, 3> u;
-    for (const auto &condition : conditions.displacements)
+    for (const auto &condition : displacements)
       if (is_along_axis(condition))
         u[static_cast<unsigned int>(condition.direction)] =
-          condition.value.value_at(point, time, factor);
+          condition.value(point, instant);
     return u;
   }
 
-  const std::map<types::boundary_id, EdgeConditions> &
-  BoundaryConditions::edges() const
+  void
+  BoundaryConditions::prescribe(const EdgeIds  &edge,
+                                const Direction direction,
+                                const double    value)
   {
-    return edges_;
+    for (const auto id : edge)
+      {
+        edges_[id].edge = *edge.begin();
+        edges_[id].displacements.push_back(
+          {direction,
+           Expression(value),
+           "the displacement of the edge " + std::to_string(*edge.begin())});
+      }
   }
 
-  const std::vector<PointSupport> &
-  BoundaryConditions::points() const
+  void
+  BoundaryConditions::prescribe_rotation(const EdgeIds &edge,
+                                         const double   value)
   {
-    return points_;
+    for (const auto id : edge)
+      {
+        edges_[id].edge     = *edge.begin();
+        edges_[id].rotation = std::make_unique<Expression>(value);
+      }
+  }
+
+  void
+  BoundaryConditions::clamp(const EdgeIds &edge)
+  {
+    for (const auto direction : {Direction::x, Direction::y, Direction::z})
+      prescribe(edge, direction);
+    prescribe_rotation(edge);
   }
 } // namespace Nacre

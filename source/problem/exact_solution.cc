@@ -5,7 +5,7 @@
 
 namespace Nacre
 {
-  ExactSolution::ExactSolution()
+  ExactSolutionParameters::ExactSolutionParameters()
     : ParameterAcceptor("/Exact solution")
   {
     add_parameter("Displacement",
@@ -14,26 +14,13 @@ namespace Nacre
                   "none is known. Units: length.");
   }
 
-  void
-  ExactSolution::prepare(const Constants &constants)
+  ExactSolution
+  ExactSolutionParameters::make(const Constants &constants) const
   {
-    displacement_.reset();
-    if (!displacement_text_.empty())
-      displacement_.emplace(displacement_text_,
-                            "Exact solution/Displacement",
-                            constants);
-  }
-
-  bool
-  ExactSolution::is_known() const
-  {
-    return displacement_.has_value();
-  }
-
-  Tensor<1, 3>
-  ExactSolution::displacement(const Point<3> &point) const
-  {
-    Assert(is_known(), ExcInternalError());
-    return (*displacement_)(point);
+    if (displacement_text_.empty())
+      return {};
+    return ExactSolution(VectorExpression(displacement_text_,
+                                          "Exact solution/Displacement",
+                                          constants));
   }
 } // namespace Nacre

@@ -66,7 +66,7 @@ namespace Nacre
     }
   } // namespace
 
-  Loads::Loads()
+  LoadParameters::LoadParameters()
     : ParameterAcceptor("/Loads")
   {
     add_parameter(
@@ -100,7 +100,7 @@ namespace Nacre
   }
 
   std::vector<std::string>
-  Loads::named_edges() const
+  LoadParameters::named_edges() const
   {
     std::vector<std::string> names;
     const auto               add = [&](const auto &edge, const auto &...) {
@@ -111,102 +111,82 @@ namespace Nacre
     return names;
   }
 
-  void
-  Loads::prepare(const Midsurface &midsurface, const Constants &constants)
+  Loads
+  LoadParameters::make(const Midsurface &midsurface,
+                       const Constants  &constants) const
   {
-    force_ = VectorExpression(force_text_,
-                              "Loads/Force per area",
-                              constants,
-                              variables);
-    gravity_ =
+    Loads loads;
+    loads.force = VectorExpression(force_text_,
+                                   "Loads/Force per area",
+                                   constants,
+                                   variables);
+    loads.gravity =
       VectorExpression(gravity_text_, "Loads/Gravity", constants, variables);
-    pressure_ =
+    loads.normal_pressure =
       Expression(pressure_text_, "Loads/Pressure", constants, variables);
-
-    edge_forces_  = edge_loads<VectorExpression>(edge_forces_text_,
-                                                forces_parameter,
-                                                midsurface,
-                                                constants);
-    edge_moments_ = edge_loads<Expression>(edge_moments_text_,
-                                           moments_parameter,
-                                           midsurface,
-                                           constants);
-    point_forces_.clear();
+    loads.follows = follows_;
+    for (auto &[id, force] : edge_loads<VectorExpression>(edge_forces_text_,
+                                                          forces_parameter,
+                                                          midsurface,
+                                                          constants))
+      loads.set_edge_force(id, std::move(force));
+    for (auto &[id, moment] : edge_loads<Expression>(edge_moments_text_,
+                                                     moments_parameter,
+                                                     midsurface,
+                                                     constants))
+      loads.set_edge_moment(id, std::move(moment));
     for_each_entry(point_forces_text_,
                    "Loads/Point forces",
                    [&](const auto &point,
                        const auto &value,
                        const auto &where) {
-                     point_forces_.push_back(
+                     loads.add_point_force(
                        {evaluate_point(point, where, constants),
                         VectorExpression(value, where, constants, variables),
                         where});
                    });
+    return loads;
+  }
+
+  void
+  Loads::set_edge_force(const types::boundary_id id, VectorExpression &&force)
+  {
+    edge_forces_[id] = std::move(force);
+  }
+
+  void
+  Loads::set_edge_moment(const types::boundary_id id, Expression &&moment)
+  {
+    edge_moments_[id] = std::move(moment);
   }
 
   bool
   Loads::no_surface_load() const
   {
-    return force_.is_zero() && gravity_.is_zero() &&
-           (follows_ || pressure_.is_zero());
+    return force.is_zero() && gravity.is_zero() &&
+           (follows || normal_pressure.is_zero());
   }
 
   Tensor<1, 3>
   Loads::force_per_area(const Point<3>     &point,
                         const Tensor<1, 3> &t0,
-                        const double        area_density) const
+                        const double        area_density,
+                        const Instant      &instant) const
   {
-    const double dead_pressure = follows_ ? 0. : pressure_(point);
-    return force_(point) + area_density * gravity_(point) + dead_pressure * t0;
-  }
-
-  bool
-  Loads::pressure_follows() const
-  {
-    return follows_ && has_pressure();
-  }
-
-  double
-  Loads::pressure(const Point<3> &point) const
-  {
-    return pressure_(point);
-  }
-
-  void
-  Loads::set_time(const double time, const double factor)
-  {
-    force_.set_time(time, factor);
-    gravity_.set_time(time, factor);
-    pressure_.set_time(time, factor);
-    for (auto &[edge, force] : edge_forces_)
-      force.set_time(time, factor);
-    for (auto &[edge, moment] : edge_moments_)
-      moment.set_time(time, factor);
-    for (auto &point_force : point_forces_)
-      point_force.force.set_time(time, factor);
+    const double dead_pressure = follows ? 0. : pressure(point, instant);
+    return force(point, instant) + area_density * gravity(point, instant) +
+           dead_pressure * t0;
   }
 
   bool
   Loads::has_pressure() const
   {
-    return !pressure_.is_zero();
+    return !normal_pressure.is_zero();
   }
 
-  const std::map<types::boundary_id, VectorExpression> &
-  Loads::edge_forces() const
+  bool
+  Loads::pressure_follows() const
   {
-    return edge_forces_;
-  }
-
-  const std::map<types::boundary_id, Expression> &
-  Loads::edge_moments() const
-  {
-    return edge_moments_;
-  }
-
-  const std::vector<PointForce> &
-  Loads::point_forces() const
-  {
-    return point_forces_;
+    return follows && has_pressure();
   }
 } // namespace Nacre

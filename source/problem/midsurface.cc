@@ -4,13 +4,11 @@
 #include <nacre/base/text.h>
 #include <nacre/problem/midsurface.h>
 #include <nacre/problem/parametric_surface.h>
-#include <nacre/problem/surfaces.h>
 
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace Nacre
 {
@@ -53,15 +51,6 @@ namespace Nacre
                             Text::lower_case(plain),
                             false);
       return known == plain || without_spaces(known) == plain;
-    }
-
-    std::string
-    list_of_surfaces()
-    {
-      std::string text;
-      for (const SurfaceKind &kind : surface_kinds())
-        text += (text.empty() ? "" : " | ") + kind.name;
-      return text;
     }
 
     using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
@@ -173,113 +162,32 @@ namespace Nacre
   } // namespace
 
 
-  Midsurface::Midsurface()
-    : ParameterAcceptor("/Mid-surface")
+  Midsurface::Midsurface(std::unique_ptr<const ParametricSurface> surface,
+                         const std::string                       &name)
+    : surface_(std::move(surface))
+    , name_(name)
   {
-    add_parameter("Surface",
-                  surface_name_,
-                  "The surface: " + list_of_surfaces() +
-                    "; its parameters are in the subsection of its name, "
-                    "lengths and angles may be expressions of the constants. "
-                    "Units: none");
-    add_parameter("Subdivisions",
-                  subdivisions_,
-                  "Coarse cells along u and v, before any refinement; one "
-                  "number for both. Closed directions need at least 3. Units: "
-                  "none");
-    add_parameter("Grading u",
-                  grading_[0],
-                  "Expression g(s) that grows from 0 at s = 0 to 1 at s = 1, "
-                  "e.g. s^2: coarse mesh line i of n lies at g(i/n) of the "
-                  "range of u (of each leg of a folded strip). Refinement "
-                  "halves the coarse cells. Units: none");
-    add_parameter("Grading v",
-                  grading_[1],
-                  "The same for the lines across v. Units: none");
-
-    for (const SurfaceKind &kind : surface_kinds())
-      {
-        enter_subsection(kind.name);
-        for (const SurfaceParameter &parameter : kind.parameters)
-          {
-            std::string &value = values_[kind.name][parameter.name];
-            value              = parameter.default_value;
-            add_parameter(parameter.name, value, parameter.documentation);
-          }
-        leave_subsection();
-      }
-  }
-
-
-  Midsurface::~Midsurface() = default;
-
-
-  void
-  Midsurface::set_files(const MPI_Comm communicator, const std::string &folder)
-  {
-    communicator_ = communicator;
-    folder_       = folder;
-    constants_of_file_.reset();
-  }
-
-
-  void
-  Midsurface::fix_file_name() const
-  {
-    namespace fs  = std::filesystem;
-    fs::path path = Text::trim(values_.at("file").at("File name"));
-    if (path.is_relative() && fs::exists(fs::path(folder_) / path))
-      path = fs::path(folder_) / path;
-    prm.enter_subsection("Mid-surface");
-    prm.enter_subsection("file");
-    prm.set("File name", fs::absolute(path).lexically_normal().string());
-    prm.leave_subsection();
-    prm.leave_subsection();
-  }
-
-
-  void
-  Midsurface::prepare(const Constants &constants)
-  {
-    const std::string        path  = "Mid-surface";
-    const std::string        name  = Text::trim(surface_name_);
-    const auto              &kinds = surface_kinds();
-    std::vector<std::string> names;
-    for (const SurfaceKind &kind : kinds)
-      names.push_back(kind.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    AssertThrow(
-      found != names.end(),
-      ExcMessage(
-        Text::unknown_name(path + "/Surface", "surface", name, names)));
-
-    // A study prepares for each of its cases.
-    if (name == "file" && constants_of_file_ == constants)
-      return;
-    constants_of_file_.reset();
-    const SurfaceInput input(path,
-                             name,
-                             values_,
-                             {subdivisions_, grading_},
-                             constants,
-                             {communicator_, folder_});
-    surface_.reset();
-    surface_ = std::make_unique<const ParametricSurface>(
-      kinds[found - names.begin()].make(input),
-      input.where());
-
+    Assert(surface_ != nullptr, ExcInternalError());
     if (!surface_->has_triangles())
       diagonals_ =
         choose_diagonals(surface_->cells(), surface_->vertices().size());
-    edge_names_.clear();
     for (const SurfaceDescription::Edge &edge : surface_->edges())
       edge_names_.push_back(edge.name);
-    if (name == "file")
-      {
-        fix_file_name();
-        constants_of_file_ = constants;
-      }
   }
+
+
+  Midsurface::Midsurface(SurfaceDescription &&description,
+                         const std::string   &name)
+    : Midsurface(
+        std::make_unique<const ParametricSurface>(std::move(description), name),
+        name)
+  {}
+
+
+  Midsurface::Midsurface(Midsurface &&) noexcept = default;
+  Midsurface &
+  Midsurface::operator=(Midsurface &&) noexcept = default;
+  Midsurface::~Midsurface()                     = default;
 
 
   std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
@@ -287,11 +195,9 @@ namespace Nacre
                                    const ReferenceCell &reference_cell,
                                    const unsigned int   n_refinements) const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
-
     const bool triangles = (reference_cell == ReferenceCells::Triangle);
     AssertThrow(triangles || !surface_->has_triangles(),
-                ExcMessage("Mid-surface/" + Text::trim(surface_name_) +
+                ExcMessage("Mid-surface/" + name_ +
                            ": the mesh has triangles, and the element in "
                            "Discretization/Element needs quadrilaterals."));
     std::vector<CellData<dim>> cells;
@@ -351,8 +257,6 @@ namespace Nacre
   Midsurface::position(const Triangulation<dim, spacedim>::cell_iterator &cell,
                        const Point<dim> &unit) const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
-
     // Up to the coarse cell. Its index is the order in which the cells were
     // given; the number in cell->id() is not, p4est has an order of its own.
     Point<dim> coarse_unit = unit;
@@ -387,7 +291,6 @@ namespace Nacre
   const MeshRegions &
   Midsurface::regions() const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
     return surface_->regions();
   }
 
@@ -395,7 +298,6 @@ namespace Nacre
   bool
   Midsurface::has_triangles() const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
     return surface_->has_triangles();
   }
 
@@ -468,8 +370,8 @@ namespace Nacre
     const EdgeNames               &names = surface_->edge_names();
     const std::vector<std::string> known = known_edges();
     if (known.empty())
-      return where + ": unknown edge '" + name + "': the surface '" +
-             Text::trim(surface_name_) + "' is closed and has no edges.";
+      return where + ": unknown edge '" + name + "': the surface '" + name_ +
+             "' is closed and has no edges.";
     std::string message = Text::unknown_name(where, "edge", name, known);
     std::vector<std::string> others;
     for (const auto &[other, why] : names.no_edges)
@@ -492,8 +394,6 @@ namespace Nacre
   std::set<types::boundary_id>
   Midsurface::edge_ids(const std::string &name, const std::string &where) const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
-
     const EdgeNames  &names  = surface_->edge_names();
     const std::string wanted = plain_name(name);
     const bool        rest   = !names.rest.empty() &&
@@ -525,8 +425,6 @@ namespace Nacre
   std::vector<std::string>
   Midsurface::notes() const
   {
-    Assert(surface_ != nullptr, ExcMessage("Call prepare() first."));
-
     const EdgeNames         &names  = surface_->edge_names();
     std::vector<std::string> result = surface_->notes();
     for (const auto &[name, note] : names.notes)

@@ -3,6 +3,7 @@
 
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/text.h>
+#include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/refinement_marking.h>
@@ -13,6 +14,23 @@
 
 namespace Nacre
 {
+  const Selection<EstimatorType> &
+  selection(EstimatorType)
+  {
+    static const Selection<EstimatorType> table =
+      {{EstimatorType::residual, "residual"}, {EstimatorType::goal, "goal"}};
+    return table;
+  }
+
+  const Selection<MarkingType> &
+  selection(MarkingType)
+  {
+    static const Selection<MarkingType> table = {
+      {MarkingType::doerfler, "Doerfler"},
+      {MarkingType::fixed_fraction, "fixed fraction"}};
+    return table;
+  }
+
   AdaptiveRefinement::AdaptiveRefinement()
     : ParameterAcceptor("/Adaptive refinement")
   {
@@ -27,9 +45,7 @@ namespace Nacre
                   estimator_,
                   "residual: the energy norm of the error, (2 energy)^1/2, "
                   "from residuals and jumps; goal: the error of one quantity, "
-                  "by the dual solution.",
-                  prm,
-                  Patterns::Selection("residual|goal"));
+                  "by the dual solution.");
     add_parameter("Goal",
                   goal_name_,
                   "Name of a quantity of 'Quantities': a displacement at a "
@@ -38,9 +54,7 @@ namespace Nacre
                   marking_,
                   "Doerfler: the fewest cells that hold the fraction of the "
                   "estimate (of its square, for the energy norm); fixed "
-                  "fraction: that fraction of the cells.",
-                  prm,
-                  Patterns::Selection("Doerfler|fixed fraction"));
+                  "fraction: that fraction of the cells.");
     add_parameter("Fraction",
                   fraction_,
                   "Fraction that 'Marking' takes, above 0 and at most 1; with "
@@ -67,15 +81,15 @@ namespace Nacre
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
-    AssertThrow(problem.is_linear(),
+    AssertThrow(problem.path.is_linear(),
                 ExcMessage(section + "Cycles: only a linear analysis has an "
                                      "error estimate; set it to 0, or "
                                      "'Analysis/Type' to linear."));
-    AssertThrow(problem.element_name() != "triangle",
+    AssertThrow(problem.model.element.type != ElementType::triangle,
                 ExcMessage(section + "Cycles: meshes of triangles are refined "
                                      "as a whole only; set it to 0, or choose "
                                      "an element of quadrilaterals."));
-    if (estimator_ == "residual")
+    if (estimator_ == EstimatorType::residual)
       {
         AssertThrow(goal_name_.empty(),
                     ExcMessage(section + "Goal: '" + goal_name_ +
@@ -112,16 +126,23 @@ namespace Nacre
   }
 
   ErrorEstimate
-  AdaptiveRefinement::estimate(const ShellProblem &problem) const
+  AdaptiveRefinement::estimate(const ShellModel                    &model,
+                               const SolvedShell                   &solution,
+                               const TrilinosWrappers::MPI::Vector &dual) const
   {
-    const MPI_Comm communicator = problem.discretization().communicator();
-    CpuTimer       timer(communicator);
-    const auto     estimator = problem.make_error_estimator();
-    ErrorEstimate  result;
-    const ErrorEstimator::Field u{&problem.solution().displacement, true};
+    const MPI_Comm       communicator = solution.discretization.communicator();
+    CpuTimer             timer(communicator);
+    const ErrorEstimator estimator(solution.discretization,
+                                   model.section,
+                                   model.supports,
+                                   model.loads,
+                                   solution.shell_operator.penalty(),
+                                   model.kinematics);
+    ErrorEstimate        result;
+    const ErrorEstimator::Field u{&solution.displacement, true};
     if (!goal_index_)
       {
-        const auto indicators = estimator->estimate(u);
+        const auto indicators = estimator.estimate(u);
         for (unsigned int k = 0; k < indicators.n_cells(); ++k)
           result.indicators.push_back(indicators.of_cell(k));
         result.value = std::sqrt(indicators.total(communicator));
@@ -129,15 +150,15 @@ namespace Nacre
     else if (goal_.is_energy)
       {
         // U = l(u)/2: the error is half the square of the norm.
-        const auto indicators = estimator->estimate(u);
+        const auto indicators = estimator.estimate(u);
         for (unsigned int k = 0; k < indicators.n_cells(); ++k)
           result.indicators.push_back(0.5 * indicators.of_cell(k));
         result.value = result.bound = 0.5 * indicators.total(communicator);
       }
     else
       {
-        const ErrorEstimator::Field z{&problem.dual_solution(), false};
-        const auto [uu, zz, uz] = estimator->estimate(u, z);
+        const ErrorEstimator::Field z{&dual, false};
+        const auto [uu, zz, uz] = estimator.estimate(u, z);
         for (unsigned int k = 0; k < uu.n_cells(); ++k)
           {
             result.indicators.push_back(
@@ -165,7 +186,7 @@ namespace Nacre
   }
 
   void
-  AdaptiveRefinement::add_to_row(const ShellProblem  &problem,
+  AdaptiveRefinement::add_to_row(const SolvedShell   &solution,
                                  const ErrorEstimate &estimate,
                                  ResultsTable::Row   &row) const
   {
@@ -175,8 +196,8 @@ namespace Nacre
         if (reference_)
           error = *reference_ - row.values[*goal_index_];
       }
-    else if (problem.exact_solution().is_known())
-      error = compute_error_norms(problem.solution()).energy;
+    else if (solution.exact_solution.is_known())
+      error = compute_error_norms(solution).energy;
 
     row.values.push_back(estimate.value);
     if (goal_index_)
@@ -194,7 +215,7 @@ namespace Nacre
   {
     if (mesh.dof_handler().n_dofs() > max_dofs_)
       return {};
-    return marking_ == "Doerfler" ?
+    return marking_ == MarkingType::doerfler ?
              RefinementMarking::bulk(estimate.indicators,
                                      fraction_,
                                      mesh.communicator()) :

@@ -43,21 +43,29 @@ namespace Nacre
                                                  {13., 0.4, 4.0, 2.0, 2.0}}};
   } // namespace
 
+  const Selection<SolverType> &
+  selection(SolverType)
+  {
+    static const Selection<SolverType> table = {{SolverType::automatic, "auto"},
+                                                {SolverType::direct, "direct"},
+                                                {SolverType::multigrid,
+                                                 "multigrid"}};
+    return table;
+  }
+
   LinearSolverParameters::LinearSolverParameters()
     : ParameterAcceptor("/Linear solver")
   {
     add_parameter(
       "Solver",
-      solver,
+      values.type,
       "direct: sparse factorisation; multigrid: conjugate gradients "
       "with geometric multigrid on the refinements of the coarse "
       "mesh; auto: whichever is expected to be faster, by the "
       "number of unknowns, and fits into the memory. If multigrid "
-      "fails, the direct solver takes over, with a warning.",
-      prm,
-      Patterns::Selection("auto|direct|multigrid"));
+      "fails, the direct solver takes over, with a warning.");
     add_parameter("Max iterations",
-                  max_iterations,
+                  values.max_iterations,
                   "Iterations after which multigrid gives up. Units: none.",
                   prm,
                   Patterns::Integer(1));
@@ -144,6 +152,6 @@ namespace Nacre
   std::string
   ChosenSolver::name() const
   {
-    return multigrid_ != nullptr ? "multigrid" : "direct";
+    return name_of(type());
   }
 } // namespace Nacre

@@ -8,7 +8,6 @@
 #include <nacre/simulation/path_monitor.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -16,24 +15,20 @@
 namespace Nacre
 {
   PathMonitor::PathMonitor(const MPI_Comm              communicator,
-                           const Options              &options,
+                           const OutputOptions        &options,
+                           const PathParameters       &path,
                            const QuantitiesOfInterest &quantities,
                            Checkpoint                 &checkpoint,
                            Log                        &log)
     : communicator_(communicator)
     , options_(options)
+    , path_(path)
+    , grid_(path.time_grid())
     , quantities_(quantities)
     , checkpoint_(checkpoint)
     , log_(log)
     , vtu_output_(options.fields)
   {}
-
-  std::string
-  PathMonitor::file(const std::string &ending) const
-  {
-    return (std::filesystem::path(options_.folder) / (options_.name + ending))
-      .string();
-  }
 
   std::string
   PathMonitor::csv_header() const
@@ -66,7 +61,7 @@ namespace Nacre
       !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {
       // Rows after the checkpoint will be written again.
-      std::ifstream      in(file("_path.csv"));
+      std::ifstream      in(options_.file("_path.csv"));
       std::string        header, line;
       std::ostringstream kept;
       std::getline(in, header);
@@ -77,13 +72,13 @@ namespace Nacre
       const bool goes_on = same_quantities && header == csv_header();
       if (!goes_on && !kept.str().empty())
         {
-          earlier_rows_ =
-            file("_path_until_" + std::to_string(data.state.step) + ".csv");
+          earlier_rows_ = options_.file(
+            "_path_until_" + std::to_string(data.state.step) + ".csv");
           write_file(earlier_rows_, [&](std::ostream &out) {
             out << header << '\n' << kept.str();
           });
         }
-      write_file(file("_path.csv"), [&](std::ostream &out) {
+      write_file(options_.file("_path.csv"), [&](std::ostream &out) {
         out << csv_header() << '\n' << (goes_on ? kept.str() : "");
       });
     });
@@ -110,12 +105,11 @@ namespace Nacre
     written_.state = state;
     has_saved_     = false;
     const bool is_due =
-      (options_.vtu_steps > 0 && state.step % options_.vtu_steps == 0) ||
-      options_.grid.is_listed(state.time);
+      (path_.vtu_steps > 0 && state.step % path_.vtu_steps == 0) ||
+      grid_.is_listed(state.time);
     if (options_.write_vtu && is_due)
       write_fields(state, shell);
-    if (options_.checkpoint_steps > 0 &&
-        state.step % options_.checkpoint_steps == 0)
+    if (path_.checkpoint_steps > 0 && state.step % path_.checkpoint_steps == 0)
       save(state);
   }
 
@@ -124,7 +118,7 @@ namespace Nacre
   {
     if (options_.write_vtu && written_.written_fields.count(state.step) == 0)
       write_fields(state, shell);
-    if (options_.checkpoint_steps > 0 && !has_saved_)
+    if (path_.checkpoint_steps > 0 && !has_saved_)
       save(state);
   }
 
@@ -155,7 +149,7 @@ namespace Nacre
                          const std::vector<double> &values)
   {
     run_on_root(communicator_, [&]() {
-      const std::string  csv = file("_path.csv");
+      const std::string  csv = options_.file("_path.csv");
       std::ostringstream text;
       if (state.step == 0)
         text << csv_header() << '\n';
@@ -213,7 +207,7 @@ namespace Nacre
     if (options_.report_seconds && n_done > 0)
       line << std::fixed << std::setprecision(0) << ", "
            << timer_.wall_time() / n_done *
-                options_.grid.n_steps_left(state.time, state.next_step)
+                grid_.n_steps_left(state.time, state.next_step)
            << " s left";
     log_.progress() << line.str() << std::endl;
   }
@@ -224,15 +218,15 @@ namespace Nacre
     std::ostringstream text;
     text << "Path: " << written_.state.step
          << " steps to t = " << written_.state.time << ": "
-         << file("_path.csv");
+         << options_.file("_path.csv");
     const auto n_fields = written_.written_fields.size();
     if (n_fields > 0)
       text << "; fields of " << n_fields
            << (n_fields == 1 ? " step: " : " steps: ")
-           << file(options_.fields.format == FieldFormat::hdf5 ? ".xdmf" :
-                                                                 ".pvd");
+           << options_.file(
+                options_.fields.format == FieldFormat::hdf5 ? ".xdmf" : ".pvd");
     if (has_saved_)
-      text << "; " << file(".checkpoint");
+      text << "; " << options_.file(".checkpoint");
     return text.str();
   }
 } // namespace Nacre

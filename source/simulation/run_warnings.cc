@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/analysis/path_parameters.h>
+#include <nacre/base/expression.h>
 #include <nacre/base/log.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/simulation/problem_record.h>
@@ -44,11 +44,11 @@ namespace Nacre
   }
 
   void
-  warn_of_load_factor(const PathParameters &parameters,
-                      const ProblemRecord  &problem,
-                      Log                  &log)
+  warn_of_load_factor(const Expression    &load_factor,
+                      const ProblemRecord &problem,
+                      Log                 &log)
   {
-    if (parameters.load_factor.is_constant())
+    if (load_factor.is_constant())
       return;
     std::string found;
     for (const auto *const section : {"Loads", "Boundary conditions"})

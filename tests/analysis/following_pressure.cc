@@ -27,33 +27,17 @@ int
 main(int argc, char **argv)
 {
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const NoParameters                     clean;
-  LinearElasticSection                   section;
-  Midsurface                             midsurface;
-  BoundaryConditions                     conditions;
-  Loads                                  loads;
-  ParameterAcceptor::declare_all_parameters();
-  ParameterAcceptor::prm.parse_input_from_string(text);
-  ParameterAcceptor::parse_all_parameters();
-  section.prepare({});
-  midsurface.prepare({});
-  conditions.prepare(midsurface, {});
-  loads.prepare(midsurface, {});
+  TextModel                              parameters(text);
+  ShellModel                            &model = parameters.model;
+  model.kinematics.tangent                     = TangentType::consistent;
+  model.eta                                    = 5.;
 
-  const Discretization           discretization(midsurface,
+  const Discretization           discretization(model.midsurface,
                                       MPI_COMM_WORLD,
                                       Element{ElementType::lagrange, 2},
                                       0,
                                       0);
-  const ShellOperator            shell(discretization,
-                            section,
-                            conditions,
-                            loads,
-                            KinematicsOptions(MembraneStrain::tied,
-                                              EdgeForm::hinge,
-                                              KinematicsModel::linear,
-                                              TangentType::consistent),
-                            5.);
+  const ShellOperator            shell(discretization, model);
   TrilinosWrappers::SparseMatrix matrix;
   shell.reinit_matrix(discretization.hanging_node_constraints(), matrix);
 

@@ -68,7 +68,7 @@ main(int argc, char **argv)
          {TimeScheme::energy_momentum, 2.}})
     for (const double damping : {0., 0.3})
       {
-        const auto  &name = time_scheme_names()[static_cast<int>(scheme)];
+        const auto  &name = name_of(scheme);
         const double rate =
           std::log2(error(scheme, damping, 200) / error(scheme, damping, 400));
         check_below(name + ", damping " + std::to_string(damping) + ": order",

@@ -60,7 +60,8 @@ struct Step
        const ShellOperator  &shell_operator,
        const TrilinosVector &u_start,
        const TrilinosVector &u_end,
-       const StepStart      &start)
+       const StepStart      &start,
+       const ShellActions   &actions = {})
     : force(zero_vector(discretization))
     , mean(u_start)
     , change(u_end)
@@ -70,7 +71,7 @@ struct Step
     const MassTerms mass(discretization);
     const auto      rest = zero_vector(discretization);
     const Inertia   inertia{mass, rest, 0., &start};
-    shell_operator.residual(mean, force, &inertia);
+    shell_operator.residual(mean, actions, force, &inertia);
     work = force * change;
   }
 
@@ -170,27 +171,28 @@ test_prescribed_rotation(const KinematicsModel model)
       section_text(100., 0.3, 0.2),
     {ElementType::lagrange, 2});
   KinematicsOptions options(corotational(MembraneStrain::tied));
-  options.model             = model;
-  const auto shell_operator = shell.make_operator(options);
-  const auto u_start = interpolate(*shell.discretization, [](const auto &X) {
+  options.model               = model;
+  const auto   shell_operator = shell.make_operator(options);
+  const auto   u_start = interpolate(*shell.discretization, [](const auto &X) {
     return 0.1 * some_field(X);
   });
-  const auto u_end   = interpolate(*shell.discretization, [](const auto &X) {
+  const auto   u_end   = interpolate(*shell.discretization, [](const auto &X) {
     return -0.2 * some_field(X);
   });
-  shell.conditions->set_time(0.5, 1.);
-  const double    U_start = shell_operator->energies(u_start).total();
-  const StepStart start{u_start, shell_operator->prescribed_rotations()};
-  shell.conditions->set_time(1.5, 1.);
-  const double U_end = shell_operator->energies(u_end).total();
-  const Step   step(*shell.discretization,
+  const auto   before  = shell_operator->actions({0.5, 1.});
+  const auto   after   = shell_operator->actions({1.5, 1.});
+  const double U_start = shell_operator->energies(u_start, before).total();
+  const double U_end   = shell_operator->energies(u_end, after).total();
+  const StepStart start{u_start, before.rotations};
+  const Step      step(*shell.discretization,
                   *shell_operator,
                   u_start,
                   u_end,
-                  start);
-  const double rotation_work = shell_operator->rotation_work(start, u_end);
-  const auto   name =
-    kinematics_model_names()[static_cast<int>(model)] + ": prescribed rotation";
+                  start,
+                  after);
+  const double    rotation_work =
+    shell_operator->rotation_work(start, u_end, after.rotations);
+  const auto name = name_of(model) + ": prescribed rotation";
   check_below(name + ": work",
               std::abs(step.work + rotation_work - (U_end - U_start)) /
                 (U_start + U_end),

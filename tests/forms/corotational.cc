@@ -92,7 +92,7 @@ test_rigid_motion(const Parameters &parameters)
                                              corotational(strain),
                                              10.);
           check_below("rigid motion, p = " + std::to_string(degree) + ", " +
-                        membrane_strain_names()[static_cast<int>(strain)],
+                        name_of(strain),
                       relative_force(*discretization, shell_operator, motion),
                       1e-12);
         }
@@ -176,7 +176,7 @@ test_linearisation()
               dense_tangent(*shell.discretization,
                             *shell.make_operator(corotational(strain, tangent)),
                             u);
-            check_below(name + tangent_type_names()[static_cast<int>(tangent)] +
+            check_below(name + name_of(tangent) +
                           " tangent at rest is the linear matrix",
                         relative_difference(matrix, linear.first),
                         1e-13);

@@ -32,9 +32,8 @@ corotational(const MembraneStrain membrane_strain,
 inline std::string
 case_name(const Element &element, const MembraneStrain strain)
 {
-  return element_names()[static_cast<int>(element.type)] + " " +
-         std::to_string(element.degree) + ", " +
-         membrane_strain_names()[static_cast<int>(strain)] + ": ";
+  return name_of(element.type) + " " + std::to_string(element.degree) + ", " +
+         name_of(strain) + ": ";
 }
 
 inline const std::string edges_parameter = "subsection Boundary conditions\n"
@@ -44,19 +43,12 @@ inline const std::string edges_parameter = "subsection Boundary conditions\n"
 struct Shell
 {
   Shell(const std::string &text, const Element &element)
+    : parameters(text)
+    , midsurface(&parameters.model.midsurface)
+    , conditions(&parameters.model.supports)
+    , loads(&parameters.model.loads)
+    , section(&parameters.section)
   {
-    ParameterAcceptor::clear();
-    midsurface = std::make_unique<Midsurface>();
-    conditions = std::make_unique<BoundaryConditions>();
-    loads      = std::make_unique<Loads>();
-    section    = std::make_unique<LinearElasticSection>();
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(text);
-    ParameterAcceptor::parse_all_parameters();
-    section->prepare({});
-    midsurface->prepare({});
-    conditions->prepare(*midsurface, {});
-    loads->prepare(*midsurface, {});
     discretization = std::make_unique<Discretization>(*midsurface,
                                                       MPI_COMM_WORLD,
                                                       element,
@@ -75,11 +67,12 @@ struct Shell
                                            eta);
   }
 
-  std::unique_ptr<Midsurface>           midsurface;
-  std::unique_ptr<BoundaryConditions>   conditions;
-  std::unique_ptr<Loads>                loads;
-  std::unique_ptr<LinearElasticSection> section;
-  std::unique_ptr<Discretization>       discretization;
+  TextModel                       parameters;
+  const Midsurface               *midsurface;
+  const BoundaryConditions       *conditions;
+  const Loads                    *loads;
+  const LinearElasticSection     *section;
+  std::unique_ptr<Discretization> discretization;
 };
 
 inline TrilinosVector

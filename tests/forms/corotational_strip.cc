@@ -80,8 +80,8 @@ test_cantilever(const Element       &element,
     element);
   for (const auto tangent : {TangentType::symmetric, TangentType::consistent})
     {
-      const auto name = case_name(element, strain) + "cantilever, " +
-                        tangent_type_names()[static_cast<int>(tangent)] + ": ";
+      const auto name =
+        case_name(element, strain) + "cantilever, " + name_of(tangent) + ": ";
       const auto shell_operator =
         shell.make_operator(corotational(strain, tangent), 5.);
       auto u = zero_vector(*shell.discretization);

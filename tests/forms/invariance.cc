@@ -176,9 +176,7 @@ test_residual(const Parameters &parameters, const Element &element)
       double         error    = 0.;
       for (unsigned int i = 0; i < u.size(); ++i)
         error = std::max(error, std::abs(residual(i) - product[i]));
-      const auto name =
-        label(element) + ", " +
-        membrane_strain_names()[static_cast<unsigned int>(membrane_strain)];
+      const auto name = label(element) + ", " + name_of(membrane_strain);
       check_below(name + ": residual is K u",
                   error / product.linfty_norm(),
                   1e-12);
@@ -279,53 +277,34 @@ test_bound()
 struct Panel
 {
   explicit Panel(const bool half, const std::string &rotation = "symmetry")
-  {
-    ParameterAcceptor::clear();
-    midsurface = std::make_unique<Midsurface>();
-    conditions = std::make_unique<BoundaryConditions>();
-    loads      = std::make_unique<Loads>();
-    section    = std::make_unique<LinearElasticSection>();
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(
-      "subsection Mid-surface\n set Surface = expression\n"
-      " set Subdivisions = " +
-      std::string(half ? "1, 2" : "2, 2") +
-      "\n subsection expression\n"
-      "  set Position = u, v + 0.1*u^2, 0.3*u^2 - 0.2*v^2 + 0.1*u^2*v\n"
-      "  set Range u = " +
-      (half ? "0" : "-1") +
-      ", 1\n  set Range v = 0, 2\n end\nend\n"
-      "subsection Boundary conditions\n set Edges = " +
-      (half ? "u=0: " + rotation : "u=1: free") + "\nend\n" +
-      section_text(100., 0.3, 0.2));
-    ParameterAcceptor::parse_all_parameters();
-    section->prepare({});
-    midsurface->prepare({});
-    conditions->prepare(*midsurface, {});
-    loads->prepare(*midsurface, {});
-  }
+    : parameters(
+        "subsection Mid-surface\n set Surface = expression\n"
+        " set Subdivisions = " +
+        std::string(half ? "1, 2" : "2, 2") +
+        "\n subsection expression\n"
+        "  set Position = u, v + 0.1*u^2, 0.3*u^2 - 0.2*v^2 + 0.1*u^2*v\n"
+        "  set Range u = " +
+        (half ? "0" : "-1") +
+        ", 1\n  set Range v = 0, 2\n end\nend\n"
+        "subsection Boundary conditions\n set Edges = " +
+        (half ? "u=0: " + rotation : "u=1: free") + "\nend\n" +
+        section_text(100., 0.3, 0.2))
+  {}
 
   Energies
-  energies(const VectorField &field, const double eta) const
+  energies(const VectorField &field, const double eta)
   {
-    const Discretization discretization(*midsurface,
+    parameters.model.eta = eta;
+    const Discretization discretization(parameters.model.midsurface,
                                         MPI_COMM_WORLD,
                                         Element{ElementType::lagrange, 3},
                                         0,
                                         0);
-    const ShellOperator  shell_operator(discretization,
-                                       *section,
-                                       *conditions,
-                                       *loads,
-                                       MembraneStrain::tied,
-                                       eta);
+    const ShellOperator  shell_operator(discretization, parameters.model);
     return shell_operator.energies(interpolate(discretization, field));
   }
 
-  std::unique_ptr<Midsurface>           midsurface;
-  std::unique_ptr<BoundaryConditions>   conditions;
-  std::unique_ptr<Loads>                loads;
-  std::unique_ptr<LinearElasticSection> section;
+  TextModel parameters;
 };
 
 void

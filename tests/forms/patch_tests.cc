@@ -56,38 +56,24 @@ const std::vector<Element> elements = {{ElementType::lagrange, 2},
 void
 test_patch(const Case &patch, const bool passes = true)
 {
-  ParameterAcceptor::clear();
-  LinearElasticSection section;
-  Midsurface           midsurface;
-  BoundaryConditions   conditions;
-  Loads                loads;
-  ParameterAcceptor::declare_all_parameters();
-  ParameterAcceptor::prm.parse_input_from_string(
+  TextModel parameters(
     section_text(1000., 0.3, 0.4) +
-    "subsection Mid-surface\n set Surface = expression\n"
-    " set Subdivisions = 3, 3\n subsection expression\n  set Position = " +
-    patch.position +
-    "\n end\nend\nsubsection Boundary conditions\n set Edges = " + patch.edges +
-    "\nend\nsubsection Loads\n " + patch.loads + "\nend\n");
-  ParameterAcceptor::parse_all_parameters();
-  section.prepare({});
-  midsurface.prepare({});
-  const Constants constants = {{"D", 1000. * 0.064 / (12. * 0.91)}};
-  conditions.prepare(midsurface, constants);
-  loads.prepare(midsurface, constants);
+      "subsection Mid-surface\n set Surface = expression\n"
+      " set Subdivisions = 3, 3\n subsection expression\n  set Position = " +
+      patch.position +
+      "\n end\nend\nsubsection Boundary conditions\n set Edges = " +
+      patch.edges + "\nend\nsubsection Loads\n " + patch.loads + "\nend\n",
+    {{"D", 1000. * 0.064 / (12. * 0.91)}});
+  ShellModel &model                = parameters.model;
+  model.kinematics.membrane_strain = patch.membrane_strain;
 
-  const Discretization           discretization(midsurface,
+  const Discretization           discretization(model.midsurface,
                                       MPI_COMM_WORLD,
                                       patch.element,
                                       patch.mapping_degree,
                                       0);
-  const DisplacementConditions   displacements(discretization, conditions);
-  const ShellOperator            shell_operator(discretization,
-                                     section,
-                                     conditions,
-                                     loads,
-                                     patch.membrane_strain,
-                                     {});
+  const DisplacementConditions   displacements(discretization, model.supports);
+  const ShellOperator            shell_operator(discretization, model);
   const auto                    &constraints = displacements.constraints();
   TrilinosWrappers::SparseMatrix matrix;
   TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
@@ -148,8 +134,7 @@ test_membrane()
                   1e-12});
       const auto test_distorted = [&](const MembraneStrain membrane_strain,
                                       const double         tolerance) {
-        const auto name =
-          membrane_strain_names()[static_cast<unsigned int>(membrane_strain)];
+        const auto name = name_of(membrane_strain);
         test_patch(
           {"membrane, distorted cells, edge force" + name_of + ", " + name,
            distorted,
@@ -283,13 +268,7 @@ work_on_rigid_motions(const Discretization &discretization,
 void
 test_load_resultants()
 {
-  ParameterAcceptor::clear();
-  LinearElasticSection section;
-  Midsurface           midsurface;
-  BoundaryConditions   conditions;
-  Loads                loads;
-  ParameterAcceptor::declare_all_parameters();
-  ParameterAcceptor::prm.parse_input_from_string(
+  const TextModel parameters(
     "subsection Section\n set Thickness = 0.4\n set Density = 5\nend\n"
     "subsection Mid-surface\n set Surface = expression\n"
     " set Subdivisions = 3, 2\n subsection expression\n  set Position = " +
@@ -299,22 +278,13 @@ test_load_resultants()
     " set Pressure = 0.7\n set Edge forces = v=1: 0.5, 0, 0\n"
     " set Edge moments = v=0: 0.2\n"
     " set Point forces = (0.65, 0.5, 0): 0, 0, 1.5\nend\n");
-  ParameterAcceptor::parse_all_parameters();
-  section.prepare({});
-  midsurface.prepare({});
-  conditions.prepare(midsurface, {});
-  loads.prepare(midsurface, {});
-  const Discretization discretization(midsurface,
+  const ShellModel    &model = parameters.model;
+  const Discretization discretization(model.midsurface,
                                       MPI_COMM_WORLD,
                                       Element{ElementType::lagrange, 3},
                                       0,
                                       0);
-  const ShellOperator  shell_operator(discretization,
-                                     section,
-                                     conditions,
-                                     loads,
-                                     MembraneStrain::tied,
-                                     {});
+  const ShellOperator  shell_operator(discretization, model);
 
   // Centroid (0.65, 0.5), area 1, the edge v = 1 from (0.3, 1) to (1.3, 1). The
   // moment 0.2 works on theta = -1 when the plate turns about x.

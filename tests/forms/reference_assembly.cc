@@ -11,28 +11,6 @@
 
 using namespace Tests;
 
-/** Section, surface, conditions and loads of a parameter file. */
-struct Shell : NoParameters
-{
-  explicit Shell(const std::string &text)
-  {
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(text);
-    ParameterAcceptor::parse_all_parameters();
-    section.prepare({});
-    midsurface.prepare({});
-    conditions.prepare(midsurface, {});
-    loads.prepare(midsurface, {});
-    loads.set_time(0., 1.);
-    conditions.set_time(0., 1.);
-  }
-
-  LinearElasticSection section;
-  Midsurface           midsurface;
-  BoundaryConditions   conditions;
-  Loads                loads;
-};
-
 /** 3 x 2 cells of the rectangle [0, 3] x [0, 2]. */
 Mesh
 make_mesh(const std::function<Point<3>(const Point<3> &)> &map)
@@ -81,18 +59,18 @@ one_way_difference(const Matrix &a, const Matrix &b)
 void
 compare(const std::string    &name,
         const Discretization &discretization,
-        const Shell          &shell,
+        const ShellModel     &shell,
         const MembraneStrain  strain)
 {
   const ShellOperator     fast(discretization,
                            shell.section,
-                           shell.conditions,
+                           shell.supports,
                            shell.loads,
                            strain,
                            {});
   const ReferenceAssembly reference(discretization,
                                     shell.section,
-                                    shell.conditions,
+                                    shell.supports,
                                     shell.loads,
                                     fast.penalty(),
                                     strain);
@@ -128,7 +106,7 @@ const std::string section = "subsection Section\n"
 void
 test_meshes()
 {
-  Shell       shell(section + "subsection Loads\n"
+  TextModel   shell(section + "subsection Loads\n"
                               "  set Force per area = 1, x*y, z\n"
                               "  set Gravity = 0, 0, -10\n"
                               "end\n");
@@ -145,10 +123,9 @@ test_meshes()
          discretization->triangulation().active_cell_iterators())
       if (!cell->is_artificial())
         cell->set_material_id(1 + cell->id().get_coarse_cell_id() % 2);
-    compare(name + ", " + label(element) + ", " +
-              membrane_strain_names()[static_cast<unsigned int>(strain)],
+    compare(name + ", " + label(element) + ", " + name_of(strain),
             *discretization,
-            shell,
+            shell.model,
             strain);
   };
   const auto lagrange = [](const unsigned int p) {
@@ -181,26 +158,27 @@ test_meshes()
 void
 test_edges()
 {
-  const Shell shell(section_text(10., 0.3, 0.05) +
-                    "subsection Mid-surface\n"
-                    "  set Surface = hyperbolic paraboloid\n"
-                    "  set Subdivisions = 3\n"
-                    "end\n"
-                    "subsection Boundary conditions\n"
-                    "  set Edges = u=0: clamped; v=1: rotation = x*y\n"
-                    "end\n"
-                    "subsection Loads\n"
-                    "  set Pressure = 1 + x\n"
-                    "  set Edge forces = u=1, v=1: 1, y, z\n"
-                    "  set Edge moments = u=1: 0.1*y\n"
-                    "  set Point forces = (0, 0, 0): 1, 2, 3\n"
-                    "end\n");
+  const TextModel shell(section_text(10., 0.3, 0.05) +
+                        "subsection Mid-surface\n"
+                        "  set Surface = hyperbolic paraboloid\n"
+                        "  set Subdivisions = 3\n"
+                        "end\n"
+                        "subsection Boundary conditions\n"
+                        "  set Edges = u=0: clamped; v=1: rotation = x*y\n"
+                        "end\n"
+                        "subsection Loads\n"
+                        "  set Pressure = 1 + x\n"
+                        "  set Edge forces = u=1, v=1: 1, y, z\n"
+                        "  set Edge moments = u=1: 0.1*y\n"
+                        "  set Point forces = (0, 0, 0): 1, 2, 3\n"
+                        "end\n");
   for (const auto &element :
        {Element{ElementType::lagrange, 3}, serendipity, triangle})
-    compare("edges, " + label(element),
-            Discretization(shell.midsurface, MPI_COMM_WORLD, element, 0, 0),
-            shell,
-            default_membrane_strain(element.type));
+    compare(
+      "edges, " + label(element),
+      Discretization(shell.model.midsurface, MPI_COMM_WORLD, element, 0, 0),
+      shell.model,
+      default_membrane_strain(element.type));
 }
 
 int

@@ -49,8 +49,7 @@ test_mesh(const std::string    &name,
                                      membrane_strain,
                                      {});
   const auto          where =
-    name + ", " + label(element) + ", " +
-    membrane_strain_names()[static_cast<unsigned int>(membrane_strain)];
+    name + ", " + label(element) + ", " + name_of(membrane_strain);
 
   const auto &constraints = discretization->hanging_node_constraints();
   const auto  system =

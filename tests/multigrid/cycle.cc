@@ -101,18 +101,15 @@ some_displacement(const Discretization &discretization,
 
 void
 check_solution(const std::string    &name,
-               const Case           &shell,
+               const ShellModel     &model,
                const Discretization &discretization,
                const System         &system,
                const TrilinosVector *u,
-               KinematicsOptions     options,
                const unsigned int    max_iterations)
 {
   MultigridSolver::Parameters parameters;
   parameters.coarse_dofs = 600;
-  MultigridSolver solver(discretization,
-                         shell.description(options),
-                         parameters);
+  MultigridSolver solver(discretization, model, parameters);
   solver.prepare({system.matrix, system.conditions.constraints(), u});
   Tests::check_above(name + ": levels", solver.n_levels(), 1.5);
 
@@ -148,16 +145,16 @@ test(const std::string         &name,
      const std::vector<Marker> &markers   = {},
      const double               thickness = 0.)
 {
-  const Case        shell(text, thickness);
-  KinematicsOptions options(default_membrane_strain(element.type));
+  Case shell(text, thickness);
+  shell.model.kinematics.membrane_strain =
+    default_membrane_strain(element.type);
   const auto discretization = shell.discretize(element, n_refinements, markers);
-  const System system(shell, *discretization, options);
+  const System system(shell.model, *discretization);
   check_solution(name + ", " + Tests::label(element),
-                 shell,
+                 shell.model,
                  *discretization,
                  system,
                  nullptr,
-                 options,
                  max_iterations);
 }
 
@@ -167,20 +164,20 @@ test_corotational(const Element     &element,
                   const std::string &text          = roof,
                   const unsigned int n_refinements = 3)
 {
-  const Case        shell(text);
-  const auto        discretization = shell.discretize(element, n_refinements);
-  KinematicsOptions options(default_membrane_strain(element.type));
-  const System      linear(shell, *discretization, options);
-  const auto        u = some_displacement(*discretization, linear, 0.5);
-  options.model       = KinematicsModel::corotational;
-  options.tangent     = TangentType::symmetric;
-  const System system(shell, *discretization, options, &u);
+  Case       shell(text);
+  const auto discretization = shell.discretize(element, n_refinements);
+  auto      &options        = shell.model.kinematics;
+  options.membrane_strain   = default_membrane_strain(element.type);
+  const System linear(shell.model, *discretization);
+  const auto   u  = some_displacement(*discretization, linear, 0.5);
+  options.model   = KinematicsModel::corotational;
+  options.tangent = TangentType::symmetric;
+  const System system(shell.model, *discretization, &u);
   check_solution("co-rotational, " + Tests::label(element),
-                 shell,
+                 shell.model,
                  *discretization,
                  system,
                  &u,
-                 options,
                  max_iterations);
 }
 
@@ -188,20 +185,15 @@ test_corotational(const Element     &element,
 void
 test_indefinite()
 {
-  const Case       shell(roof);
-  const Element    element{ElementType::lagrange, 3};
-  const auto       discretization = shell.discretize(element, 2);
-  const System     system(shell, *discretization, {}, nullptr, 0.01);
-  ShellDescription description{shell.midsurface,
-                               shell.section,
-                               shell.conditions,
-                               shell.loads,
-                               {},
-                               0.01};
-  bool             is_found = false;
+  Case          shell(roof);
+  const Element element{ElementType::lagrange, 3};
+  const auto    discretization = shell.discretize(element, 2);
+  shell.model.eta              = 0.01;
+  const System system(shell.model, *discretization);
+  bool         is_found = false;
   try
     {
-      MultigridSolver solver(*discretization, description, {});
+      MultigridSolver solver(*discretization, shell.model, {});
       solver.prepare({system.matrix, system.conditions.constraints()});
       TrilinosVector x(system.b);
       solver.solve(x, system.b);

@@ -54,6 +54,40 @@ namespace MultigridTests
   {
     /** @param thickness instead of the file's, if not zero */
     explicit Case(const std::string &text, const double thickness = 0.)
+      : model(read(text, thickness))
+    {}
+
+    std::unique_ptr<Discretization>
+    discretize(const Element             &element,
+               const unsigned int         n_refinements,
+               const std::vector<Marker> &markers = {}) const
+    {
+      auto mesh =
+        model.midsurface.create_triangulation(MPI_COMM_WORLD,
+                                              element.reference_cell(),
+                                              n_refinements);
+      for (const auto &marker : markers)
+        {
+          for (const auto &cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned() &&
+                marker(model.midsurface.position(cell, Point<dim>(.5, .5))))
+              cell->set_refine_flag();
+          mesh->execute_coarsening_and_refinement();
+        }
+      return std::make_unique<Discretization>(
+        std::move(mesh),
+        [this](const auto &cell, const auto &unit) {
+          return model.midsurface.position(cell, unit);
+        },
+        element,
+        0);
+    }
+
+    LinearElasticSection section;
+
+  private:
+    ShellModel
+    read(const std::string &text, const double thickness)
     {
       auto &prm = ParameterAcceptor::prm;
       prm.declare_entry("Constants", "");
@@ -66,49 +100,20 @@ namespace MultigridTests
       section.prepare(constants);
       for (const auto &constant : section.named_constants())
         constants.insert(constant);
-      midsurface.prepare(constants);
-      section.set_regions(midsurface.regions());
-      conditions.prepare(midsurface, constants);
-      loads.prepare(midsurface, constants);
-      loads.set_time(0., 1.);
-      conditions.set_time(0., 1.);
+      ShellModel result{midsurface_.make(constants), section};
+      section.set_regions(result.midsurface.regions());
+      result.supports = supports_.make(result.midsurface, constants);
+      result.loads    = loads_.make(result.midsurface, constants);
+      return result;
     }
 
-    std::unique_ptr<Discretization>
-    discretize(const Element             &element,
-               const unsigned int         n_refinements,
-               const std::vector<Marker> &markers = {}) const
-    {
-      auto mesh = midsurface.create_triangulation(MPI_COMM_WORLD,
-                                                  element.reference_cell(),
-                                                  n_refinements);
-      for (const auto &marker : markers)
-        {
-          for (const auto &cell : mesh->active_cell_iterators())
-            if (cell->is_locally_owned() &&
-                marker(midsurface.position(cell, Point<dim>(.5, .5))))
-              cell->set_refine_flag();
-          mesh->execute_coarsening_and_refinement();
-        }
-      return std::make_unique<Discretization>(
-        std::move(mesh),
-        [this](const auto &cell, const auto &unit) {
-          return midsurface.position(cell, unit);
-        },
-        element,
-        0);
-    }
+    MidsurfaceParameters        midsurface_;
+    BoundaryConditionParameters supports_;
+    LoadParameters              loads_;
 
-    ShellDescription
-    description(const KinematicsOptions &options) const
-    {
-      return {midsurface, section, conditions, loads, options, {}};
-    }
-
-    Midsurface           midsurface;
-    LinearElasticSection section;
-    BoundaryConditions   conditions;
-    Loads                loads;
+  public:
+    /** Tests choose the kinematics and eta. */
+    ShellModel model;
   };
 
   inline std::string
@@ -124,18 +129,11 @@ namespace MultigridTests
   /** The linear system of a mesh. */
   struct System
   {
-    System(const Case              &shell,
-           const Discretization    &discretization,
-           const KinematicsOptions &options,
-           const TrilinosVector    *u   = nullptr,
-           std::optional<double>    eta = {})
-      : conditions(discretization, shell.conditions)
-      , shell_operator(discretization,
-                       shell.section,
-                       shell.conditions,
-                       shell.loads,
-                       options,
-                       eta)
+    System(const ShellModel     &model,
+           const Discretization &discretization,
+           const TrilinosVector *u = nullptr)
+      : conditions(discretization, model.supports)
+      , shell_operator(discretization, model)
       , b(discretization.locally_owned_dofs(), MPI_COMM_WORLD)
     {
       shell_operator.reinit_matrix(conditions.constraints(), matrix);

@@ -87,14 +87,14 @@ test(const Element &element, const bool is_adaptive, const bool is_held)
       });
   const auto           fine = shell.discretize(element, 2, markers);
   const Discretization coarse(
-    coarsen(shell.midsurface, fine->triangulation()),
+    coarsen(shell.model.midsurface, fine->triangulation()),
     [&](const auto &cell, const auto &unit) {
-      return shell.midsurface.position(cell, unit);
+      return shell.model.midsurface.position(cell, unit);
     },
     element,
     0);
-  const DisplacementConditions fine_conditions(*fine, shell.conditions);
-  const DisplacementConditions coarse_conditions(coarse, shell.conditions);
+  const DisplacementConditions fine_conditions(*fine, shell.model.supports);
+  const DisplacementConditions coarse_conditions(coarse, shell.model.supports);
   const auto                  &fine_constraints = fine_conditions.constraints();
   const auto         &coarse_constraints = coarse_conditions.constraints();
   const LevelTransfer transfer(*fine,

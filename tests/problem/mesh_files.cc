@@ -392,15 +392,15 @@ namespace
   {
     write(make_file(bend, n_nodes, 4));
     ParameterAcceptor::clear();
-    Midsurface surface;
+    MidsurfaceParameters parameters;
     ParameterAcceptor::declare_all_parameters();
     ParameterAcceptor::prm.parse_input_from_string(
       "subsection Mid-surface\nset Surface = file\nsubsection file\n"
       "set File name = " +
       file_name + "\nend\nend\n");
     ParameterAcceptor::parse_all_parameters();
-    surface.set_files(MPI_COMM_WORLD, "no such folder");
-    surface.prepare({});
+    parameters.set_files(MPI_COMM_WORLD, "no such folder");
+    const Midsurface surface = parameters.make({});
 
     const bool triangles = surface.has_triangles();
     const auto mesh =

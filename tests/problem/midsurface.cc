@@ -36,19 +36,18 @@ namespace
     unsigned int                                  n_refinements = 2;
   };
 
-  std::unique_ptr<Midsurface>
+  Midsurface
   make_surface(const std::string &prm)
   {
     ParameterAcceptor::clear();
-    auto surface = std::make_unique<Midsurface>();
+    MidsurfaceParameters parameters;
     ParameterAcceptor::declare_all_parameters();
     std::string text = "subsection Mid-surface\n";
     for (const char c : prm)
       text += (c == ';' ? '\n' : c);
     ParameterAcceptor::prm.parse_input_from_string(text + "\nend\n");
     ParameterAcceptor::parse_all_parameters();
-    surface->prepare({{"R", 2.}});
-    return surface;
+    return parameters.make({{"R", 2.}});
   }
 
   unsigned int n_failures = 0;
@@ -109,9 +108,9 @@ namespace
   {
     const auto surface = make_surface(test.prm);
     const auto mesh =
-      surface->create_triangulation(MPI_COMM_WORLD,
-                                    ReferenceCells::Quadrilateral,
-                                    test.n_refinements);
+      surface.create_triangulation(MPI_COMM_WORLD,
+                                   ReferenceCells::Quadrilateral,
+                                   test.n_refinements);
 
     const FE_Q<2, 3>    fe(6);
     MappingQCache<2, 3> mapping(6);
@@ -120,7 +119,7 @@ namespace
                          std::vector<Point<3>> points;
                          for (const Point<2> &unit :
                               fe.get_unit_support_points())
-                           points.push_back(surface->position(cell, unit));
+                           points.push_back(surface.position(cell, unit));
                          return points;
                        });
     FEValues<2, 3>      values(mapping,
@@ -133,7 +132,7 @@ namespace
                                    QGauss<1>(8),
                                    update_JxW_values);
     double              area = 0., turned = 0.;
-    std::vector<double> lengths(surface->edge_names().size(), 0.);
+    std::vector<double> lengths(surface.edge_names().size(), 0.);
     unsigned int        n_unnamed = 0;
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned())
@@ -173,16 +172,16 @@ namespace
     Utilities::MPI::sum(lengths, MPI_COMM_WORLD, lengths);
 
     bool   oriented = true;
-    double gap      = mismatch(*surface, *mesh, oriented);
+    double gap      = mismatch(surface, *mesh, oriented);
     for (const auto &cell : mesh->active_cell_iterators())
       if (cell->is_locally_owned() && cell->center()[0] > 0.3)
         cell->set_refine_flag();
     const auto n_cells = mesh->n_global_active_cells();
     mesh->execute_coarsening_and_refinement();
-    gap        = std::max(gap, mismatch(*surface, *mesh, oriented));
+    gap        = std::max(gap, mismatch(surface, *mesh, oriented));
     bool edges = (n_unnamed == 0 && lengths.size() == test.edges.size());
     for (unsigned int e = 0; edges && e < lengths.size(); ++e)
-      edges = surface->edge_ids(test.edges[e].first, "test") ==
+      edges = surface.edge_ids(test.edges[e].first, "test") ==
                 std::set<types::boundary_id>{e} &&
               std::abs(lengths[e] - test.edges[e].second) < 1e-7;
 
@@ -196,7 +195,7 @@ namespace
              << ", normal " << turned << ", oriented " << oriented
              << ", unnamed " << n_unnamed << ", edges";
         for (unsigned int e = 0; e < lengths.size(); ++e)
-          text << ' ' << surface->edge_names()[e] << ' ' << lengths[e];
+          text << ' ' << surface.edge_names()[e] << ' ' << lengths[e];
       }
     report(good, text.str());
   }
@@ -395,7 +394,7 @@ namespace
     std::string found = "no error";
     try
       {
-        make_surface(prm)->edge_ids("u=0", "Edges");
+        make_surface(prm).edge_ids("u=0", "Edges");
       }
     catch (const std::exception &error)
       {

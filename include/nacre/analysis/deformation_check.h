@@ -5,6 +5,7 @@
 #define nacre_analysis_deformation_check_h
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/forms/shell_actions.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -43,8 +44,8 @@ namespace Nacre
                         const TrilinosWrappers::MPI::Vector &u);
 
   /**
-   * Why the ghosted displacement @p u tears the shell off a prescribed
-   * rotation: the normal of an edge departs from it by more than @p allowed
+   * Why the ghosted displacement @p u tears the shell off one of the prescribed
+   * @p rotations: the normal of an edge departs from it by more than @p allowed
    * (rad). The moment that pulls it back grows like the sine of twice the
    * angle and turns over at 90 degrees: beyond, no equilibrium is one, but a
    * coarse cell that swings may pass there and come back. Empty if nothing is
@@ -53,6 +54,7 @@ namespace Nacre
   std::string
   find_torn_edge(const ShellOperator                 &shell_operator,
                  const TrilinosWrappers::MPI::Vector &u,
+                 const PrescribedRotations           &rotations,
                  const double                         allowed);
 } // namespace Nacre
 

@@ -71,11 +71,11 @@ namespace Nacre
     std::string
     run(PathState &state, const Observer &observer, const Messenger &messenger);
 
-    /** Null in statics. */
+    /** The mass of the shell in motion; null in statics. */
     const MassTerms *
-    mass() const
+    dynamic_mass() const
     {
-      return mass_ ? &*mass_ : nullptr;
+      return parameters_.is_dynamic() ? &*mass_ : nullptr;
     }
 
   private:

@@ -29,6 +29,8 @@ namespace Nacre
     dynamic
   };
 
+  const Selection<AnalysisType> &selection(AnalysisType);
+
   /** When increments are shortened. */
   enum class LineSearch
   {
@@ -38,15 +40,70 @@ namespace Nacre
     never
   };
 
-  /** The section Analysis of a parameter file. */
-  class PathParameters : public ParameterAcceptor
-  {
-  public:
-    PathParameters();
+  const Selection<LineSearch> &selection(LineSearch);
 
-    /** Throws ExcMessage for values that don't go together. */
-    void
-    prepare(const Constants &constants);
+  /** When the tangent is assembled and factorised. */
+  enum class TangentUpdates
+  {
+    every_iteration,
+    /** In the first iteration of a step only. */
+    every_step
+  };
+
+  const Selection<TangentUpdates> &selection(TangentUpdates);
+
+  /** How an analysis goes on from step to step. */
+  struct StepParameters
+  {
+    AnalysisType             type = AnalysisType::linear;
+    NewtonSolver::Parameters newton;
+    LineSearch               line_search     = LineSearch::automatic;
+    TangentUpdates           tangent_updates = TangentUpdates::every_iteration;
+    TimeScheme               scheme          = TimeScheme::energy_momentum;
+    /** Of generalised alpha at high frequencies. */
+    double spectral_radius = 0.8;
+    /** Force per mass and velocity (1/time). */
+    double mass_damping = 0.;
+    /** Fields are written every so many steps; 0: at output_times only. */
+    unsigned int vtu_steps = 1;
+    /** The state is saved every so many steps; 0: never. */
+    unsigned int checkpoint_steps = 10;
+    /** Name of the run whose last state is the start; empty: none. */
+    std::string start_from;
+
+    bool
+    keeps_tangent() const
+    {
+      return tangent_updates == TangentUpdates::every_step;
+    }
+
+    /** Whether one linear solve is all. */
+    bool
+    is_linear() const
+    {
+      return type == AnalysisType::linear;
+    }
+
+    /** Whether the shell has inertia. */
+    bool
+    is_dynamic() const
+    {
+      return type == AnalysisType::dynamic;
+    }
+  };
+
+  /** A path: its steps, its times (in statics without a unit), its start. */
+  struct PathParameters : StepParameters
+  {
+    double end_time          = 1.;
+    double time_step         = 0.1;
+    double minimum_time_step = 1e-4;
+    double maximum_time_step = 0.1;
+    /** Times that are met exactly, and whose fields are written. */
+    std::vector<double> output_times;
+    /** Displacement (length) and velocity at the start, in dynamics. */
+    VectorExpression initial_displacement;
+    VectorExpression initial_velocity;
 
     /** Where the steps end. */
     TimeGrid
@@ -54,52 +111,38 @@ namespace Nacre
     {
       return {time_step, end_time, output_times};
     }
+  };
 
-    AnalysisType type = AnalysisType::linear;
-    /** Name of the run whose last state is the start; empty: none. */
-    std::string start_from;
-    /** Factor of loads and prescribed values over t. */
-    Expression load_factor;
-    double     end_time  = 1.;
-    double     time_step = 0.1;
-    double     minimum_time_step;
-    double     maximum_time_step;
-    /** Times that are met exactly, and whose fields are written. */
-    std::vector<double> output_times;
+  /** The section Analysis of a parameter file. */
+  class AnalysisParameters : public ParameterAcceptor
+  {
+  public:
+    AnalysisParameters();
 
-    NewtonSolver::Parameters newton;
-    LineSearch               line_search = LineSearch::automatic;
-    /** Factorise in the first iteration of a step only. */
-    bool keeps_tangent = false;
+    /** Throws ExcMessage for values that don't go together. */
+    PathParameters
+    make(const Constants &constants) const;
 
-    TimeScheme       scheme          = TimeScheme::energy_momentum;
-    double           spectral_radius = 0.8;
-    double           mass_damping    = 0.;
-    VectorExpression initial_displacement;
-    VectorExpression initial_velocity;
-
-    unsigned int vtu_steps        = 1;
-    unsigned int checkpoint_steps = 10;
+    /** Factor of all loads and prescribed values over t. */
+    Expression
+    load_factor(const Constants &constants) const;
 
   private:
     void
-    prepare_times(const Constants &constants);
+    read_times(const Constants &constants, PathParameters &path) const;
 
     void
-    prepare_start(const Constants &constants);
+    read_start(const Constants &constants, PathParameters &path) const;
 
-    std::string type_text_                 = "linear";
-    std::string load_factor_text_          = "default";
-    std::string end_time_text_             = "1";
-    std::string time_step_text_            = "0.1";
-    std::string minimum_time_step_text_    = "default";
-    std::string maximum_time_step_text_    = "default";
-    std::string output_times_text_         = "";
-    std::string line_search_text_          = "automatic";
-    std::string tangent_updates_text_      = "every iteration";
-    std::string scheme_text_               = "energy momentum";
-    std::string initial_displacement_text_ = "0, 0, 0";
-    std::string initial_velocity_text_     = "0, 0, 0";
+    StepParameters steps_;
+    std::string    load_factor_text_          = "default";
+    std::string    end_time_text_             = "1";
+    std::string    time_step_text_            = "0.1";
+    std::string    minimum_time_step_text_    = "default";
+    std::string    maximum_time_step_text_    = "default";
+    std::string    output_times_text_         = "";
+    std::string    initial_displacement_text_ = "0, 0, 0";
+    std::string    initial_velocity_text_     = "0, 0, 0";
   };
 } // namespace Nacre
 

@@ -7,7 +7,7 @@
 #include <nacre/base/expression.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/shell_operator.h>
-#include <nacre/problem/loads.h>
+#include <nacre/problem/shell_model.h>
 #include <nacre/solvers/linear_solver.h>
 #include <nacre/solvers/newton_solver.h>
 
@@ -27,14 +27,13 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /**
-     * @param load_factor factor of all loads and prescribed values over t
-     * @param solver of the linearised systems, which must live as long
+     * The system at t = 0; collective. Everything must live as long.
+     * @param shell_operator that of @p model on @p discretization
+     * @param solver of the linearised systems
      */
     ShellSystem(const Discretization &discretization,
                 const ShellOperator  &shell_operator,
-                BoundaryConditions   &boundary_conditions,
-                Loads                &loads,
-                Expression           &load_factor,
+                const ShellModel     &model,
                 LinearSolver         &solver);
 
     /** Take loads and conditions at @p time; collective. */
@@ -53,7 +52,7 @@ namespace Nacre
     StepStart
     step_start(const Vector &u) const
     {
-      return {with_ghosts(u), shell_operator_.prescribed_rotations()};
+      return {with_ghosts(u), actions_.rotations};
     }
 
     /**
@@ -65,6 +64,13 @@ namespace Nacre
     {
       keeps_tangent_ = is_kept;
       has_tangent_   = false;
+    }
+
+    /** Loads and prescribed rotations at the times set. */
+    const ShellActions &
+    actions() const
+    {
+      return actions_;
     }
 
     /** Factor of the loads at the time of set_time(). */
@@ -244,9 +250,8 @@ namespace Nacre
 
     const Discretization &discretization_;
     const ShellOperator  &shell_operator_;
-    BoundaryConditions   &boundary_conditions_;
-    Loads                &loads_;
-    Expression           &load_factor_;
+    const ShellModel     &model_;
+    ShellActions          actions_;
     double                factor_ = 0.;
     double                size_;
     double                area_; // of the undeformed surface

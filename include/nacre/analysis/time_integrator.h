@@ -4,10 +4,9 @@
 #ifndef nacre_analysis_time_integrator_h
 #define nacre_analysis_time_integrator_h
 
-#include <deal.II/lac/trilinos_vector.h>
+#include <nacre/base/selection.h>
 
-#include <string>
-#include <vector>
+#include <deal.II/lac/trilinos_vector.h>
 
 namespace Nacre
 {
@@ -34,9 +33,7 @@ namespace Nacre
     energy_momentum
   };
 
-  /** Names of TimeScheme in its order. */
-  const std::vector<std::string> &
-  time_scheme_names();
+  const Selection<TimeScheme> &selection(TimeScheme);
 
   /**
    * One implicit step of M a + c M v + F(u) = f(t):

@@ -4,6 +4,7 @@
 #ifndef nacre_base_expression_h
 #define nacre_base_expression_h
 
+#include <nacre/base/instant.h>
 #include <nacre/base/types.h>
 
 #include <deal.II/base/exceptions.h>
@@ -30,16 +31,16 @@ namespace Nacre
   };
 
   /**
-   * A muParser expression of a parameter file, with named constants (and pi).
-   * Malformed text and unknown names throw an ExcMessage, values that aren't
+   * A function of a point and of the time: a number, or a muParser expression
+   * of a parameter file with named constants (and pi). Malformed text and unknown names throw an ExcMessage, values that aren't
    * finite an ExcUndefinedValue: it names the parameter, the expression, the
    * point and the time.
    */
   class Expression
   {
   public:
-    /** The constant zero. */
-    Expression();
+    /** The constant @p value. */
+    Expression(const double value = 0.);
 
     /**
      * @param text the expression, e.g. "q*cos(2*x)"
@@ -57,19 +58,16 @@ namespace Nacre
     operator=(Expression &&) noexcept;
     ~Expression();
 
-    /** The value at @p point; throws if it isn't finite. */
+    /** The value at @p point and @p time; throws if it isn't finite. */
     double
-    operator()(const Point<3> &point) const;
+    operator()(const Point<3> &point, const double time = 0.) const
+    {
+      return (*this)(point, Instant{time, 1.});
+    }
 
-    /** The value at another @p time and for another @p factor. */
+    /** The value at its time, times its factor; throws if it isn't finite. */
     double
-    value_at(const Point<3> &point,
-             const double    time,
-             const double    factor) const;
-
-    /** Set the time, 0 before, and a factor of all values, 1 before. */
-    void
-    set_time(const double time, const double factor = 1.);
+    operator()(const Point<3> &point, const Instant &instant) const;
 
     /** Whether the text mentions none of the variables. */
     bool
@@ -80,16 +78,11 @@ namespace Nacre
     is_zero() const;
 
   private:
-    /** The function's value times @p factor; throws if it isn't finite. */
-    double
-    evaluate(const Point<3> &point, const double factor) const;
-
     std::string                        text_;
     std::string                        where_;
     std::string                        variables_;
     bool                               constant_ = true;
     double                             value_    = 0.;
-    double                             factor_   = 1.;
     std::unique_ptr<FunctionParser<3>> function_;
   };
 
@@ -97,8 +90,10 @@ namespace Nacre
   class VectorExpression
   {
   public:
-    /** Zero. */
-    VectorExpression() = default;
+    /** The constant @p value. */
+    VectorExpression(const Tensor<1, 3> &value = {})
+      : components_{{value[0], value[1], value[2]}}
+    {}
 
     /** From "fx, fy, fz"; anything but three components throws. */
     VectorExpression(const std::string &text,
@@ -106,12 +101,16 @@ namespace Nacre
                      const Constants   &constants,
                      const std::string &variables = "x,y,z");
 
+    /** At @p point and @p time. */
     Tensor<1, 3>
-    operator()(const Point<3> &point) const;
+    operator()(const Point<3> &point, const double time = 0.) const
+    {
+      return (*this)(point, Instant{time, 1.});
+    }
 
-    /** As Expression::set_time(). */
-    void
-    set_time(const double time, const double factor = 1.);
+    /** The value at its time, times its factor. */
+    Tensor<1, 3>
+    operator()(const Point<3> &point, const Instant &instant) const;
 
     bool
     is_zero() const;

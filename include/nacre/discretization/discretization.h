@@ -4,7 +4,7 @@
 #ifndef nacre_discretization_discretization_h
 #define nacre_discretization_discretization_h
 
-#include <nacre/discretization/element.h>
+#include <nacre/problem/element.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>

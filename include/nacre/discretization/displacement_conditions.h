@@ -27,12 +27,14 @@ namespace Nacre
      * Collective. Throws, on all ranks, for contradicting conditions, for a
      * symmetry or diaphragm edge that isn't plane, and for a point support
      * that lies off the mesh or on both lips of a slit.
+     * @param instant of the prescribed displacements
      * @param finest conditions on a finer mesh of the surface, from which the
      *   planes of symmetry are taken
      */
     DisplacementConditions(const Discretization         &discretization,
                            const BoundaryConditions     &boundary_conditions,
-                           const DisplacementConditions *finest = nullptr);
+                           const Instant                &instant = Instant(),
+                           const DisplacementConditions *finest  = nullptr);
 
     /** Hanging nodes and prescribed displacements on the relevant dofs. */
     const AffineConstraints<double> &
@@ -177,6 +179,7 @@ namespace Nacre
 
     const Discretization     &discretization_;
     const BoundaryConditions &boundary_conditions_;
+    const Instant             instant_;
     /** Dofs whose constraints this rank knows. */
     IndexSet                  local_lines_;
     IndexSet                  relevant_dofs_;

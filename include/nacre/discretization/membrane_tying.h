@@ -4,7 +4,7 @@
 #ifndef nacre_discretization_membrane_tying_h
 #define nacre_discretization_membrane_tying_h
 
-#include <nacre/discretization/element.h>
+#include <nacre/problem/element.h>
 
 #include <array>
 #include <utility>

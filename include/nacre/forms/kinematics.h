@@ -5,9 +5,9 @@
 #define nacre_forms_kinematics_h
 
 #include <nacre/discretization/shell_values.h>
-#include <nacre/forms/kinematics_options.h>
 #include <nacre/forms/prescribed_rotation.h>
 #include <nacre/mechanics/section_law.h>
+#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>

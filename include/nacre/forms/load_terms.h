@@ -4,6 +4,7 @@
 #ifndef nacre_forms_load_terms_h
 #define nacre_forms_load_terms_h
 
+#include <nacre/base/instant.h>
 #include <nacre/forms/kinematics.h>
 
 #include <deal.II/lac/trilinos_vector.h>
@@ -39,6 +40,7 @@ namespace Nacre
     subtract_on_cell(const ShellCellValues        &values,
                      const dealii::Vector<double> &u,
                      const dealii::Vector<double> &u_start,
+                     const Instant                &instant,
                      LocalTerms                   &terms) const;
 
     /** Subtract forces and moments per length of a boundary edge. */
@@ -46,6 +48,7 @@ namespace Nacre
     subtract_on_edge(const types::boundary_id      id,
                      const ShellEdgeValues        &edge,
                      const dealii::Vector<double> &u,
+                     const Instant                &instant,
                      Kinematics                   &kinematics,
                      LocalTerms                   &terms) const;
 
@@ -53,11 +56,13 @@ namespace Nacre
     void
     add_point_forces(const AffineConstraints<double> &constraints,
                      const double                     factor,
+                     const Instant                   &instant,
                      TrilinosWrappers::MPI::Vector   &vector) const;
 
   private:
     void
     subtract_surface_loads(const ShellCellValues  &values,
+                           const Instant          &instant,
                            dealii::Vector<double> &residual) const;
 
     /**
@@ -71,6 +76,7 @@ namespace Nacre
     subtract_following_pressure(const ShellCellValues        &values,
                                 const dealii::Vector<double> &u,
                                 const dealii::Vector<double> &u_start,
+                                const Instant                &instant,
                                 LocalTerms                   &terms) const;
 
     const Discretization     &discretization_;

@@ -5,7 +5,7 @@
 #define nacre_forms_reference_assembly_h
 
 #include <nacre/forms/edge_penalty.h>
-#include <nacre/forms/kinematics_options.h>
+#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>

@@ -4,20 +4,12 @@
 #ifndef nacre_forms_step_start_h
 #define nacre_forms_step_start_h
 
-#include <nacre/forms/prescribed_rotation.h>
+#include <nacre/forms/shell_actions.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <map>
-#include <utility>
-#include <vector>
-
 namespace Nacre
 {
-  /** Prescribed rotations at an edge's points, by cell index and face. */
-  using PrescribedRotations = std::map<std::pair<unsigned int, unsigned int>,
-                                       std::vector<PrescribedRotation>>;
-
   /**
    * Where a step begins whose internal forces are the energy-momentum ones,
    * Kinematics::add_cell_step_terms() and its like.

@@ -5,37 +5,19 @@
 #define nacre_multigrid_multigrid_solver_h
 
 #include <nacre/base/types.h>
-#include <nacre/forms/kinematics_options.h>
 #include <nacre/solvers/linear_solver.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace Nacre
 {
-  class BoundaryConditions;
   class Discretization;
   class DisplacementConditions;
-  class Loads;
-  class Midsurface;
-  class SectionLaw;
-
-  /** What describes a shell on any of its meshes; all must stay alive. */
-  struct ShellDescription
-  {
-    const Midsurface           &midsurface;
-    const SectionLaw           &section;
-    const BoundaryConditions   &boundary_conditions;
-    const Loads                &loads;
-    const KinematicsOptions     kinematics_options;
-    const std::optional<double> eta;
-    /** On the finest mesh, for the planes of symmetry of all levels. */
-    const DisplacementConditions *conditions = nullptr;
-  };
+  struct ShellModel;
 
   /**
    * Conjugate gradients, preconditioned by a V-cycle of geometric multigrid
@@ -69,10 +51,15 @@ namespace Nacre
       unsigned int coarse_dofs = 30000;
     };
 
-    /** Build the levels of @p fine; collective. */
-    MultigridSolver(const Discretization   &fine,
-                    const ShellDescription &shell,
-                    const Parameters       &parameters);
+    /**
+     * Build the levels of @p fine; collective. Everything must live as long.
+     * @param conditions on the finest mesh, for the planes of symmetry of all
+     *   levels; null: each level finds its own
+     */
+    MultigridSolver(const Discretization         &fine,
+                    const ShellModel             &model,
+                    const Parameters             &parameters,
+                    const DisplacementConditions *conditions = nullptr);
     ~MultigridSolver() override;
 
     /** Whether the mesh of @p fine was refined from a coarser one. */
@@ -128,9 +115,9 @@ namespace Nacre
     void
     connect_levels(const AffineConstraints<double> &finest_constraints);
 
-    /** The coarse matrices at the displacement @p finest_u, null for zero. */
+    /** The coarse matrices at the displacement and the instant of @p system. */
     void
-    assemble_coarse_levels(const TrilinosWrappers::MPI::Vector *finest_u);
+    assemble_coarse_levels(const LinearSystem &system);
 
     /** levels_[l].x = B levels_[l].b */
     void
@@ -160,7 +147,8 @@ namespace Nacre
     unsigned int
     iterate(Vector &x, const Vector &b);
 
-    const ShellDescription              shell_;
+    const ShellModel                   &model_;
+    const DisplacementConditions       *conditions_;
     const Parameters                    parameters_;
     unsigned int                        mapping_degree_;
     std::vector<std::unique_ptr<Level>> levels_;

@@ -6,7 +6,7 @@
 
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/edge_penalty.h>
-#include <nacre/forms/kinematics_options.h>
+#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 

@@ -24,6 +24,7 @@ namespace Nacre
   class MassTerms;
   class Midsurface;
   class ShellOperator;
+  struct ShellActions;
 
   /** A solved shell, as the quantities see it. */
   struct SolvedShell
@@ -31,6 +32,7 @@ namespace Nacre
     const Discretization &discretization;
     const SectionLaw     &section;
     const ShellOperator  &shell_operator;
+    const ShellActions   &actions;
     /** Which nodes are held: the same at all times. */
     const DisplacementConditions &conditions;
     const KinematicsOptions       kinematics;

@@ -4,6 +4,7 @@
 #ifndef nacre_postprocess_vtu_output_h
 #define nacre_postprocess_vtu_output_h
 
+#include <nacre/base/selection.h>
 #include <nacre/forms/kinematics.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -92,6 +93,8 @@ namespace Nacre
     vtu,
     hdf5
   };
+
+  const Selection<FieldFormat> &selection(FieldFormat);
 
   /**
    * What has been written for each counter: its time, and the file or the

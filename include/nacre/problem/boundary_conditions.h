@@ -10,6 +10,9 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace Nacre
@@ -44,7 +47,7 @@ namespace Nacre
     std::string source;
   };
 
-  /** Everything prescribed on one named edge. */
+  /** Everything prescribed on one edge. */
   struct EdgeConditions
   {
     std::vector<DisplacementCondition> displacements;
@@ -58,6 +61,18 @@ namespace Nacre
     /** The edge's name and the conditions as texts, for messages. */
     std::string              name;
     std::vector<std::string> items;
+
+    /** Whether a displacement that is prescribed along an axis varies. */
+    bool
+    may_turn() const;
+
+    /**
+     * The displacement (length) that is prescribed along the axes at @p point;
+     * components that are free are zero. Throws where an expression isn't
+     * finite.
+     */
+    Tensor<1, 3>
+    displacement(const Point<3> &point, const Instant &instant) const;
   };
 
   /** Components prescribed at a point, a node or not. */
@@ -68,89 +83,89 @@ namespace Nacre
     std::string                        source;
   };
 
-  /** Displacements and rotations prescribed on named edges and at points. */
-  class BoundaryConditions : public ParameterAcceptor
+  /**
+   * Displacements and rotations prescribed on edges and at points: values that
+   * BoundaryConditionParameters reads from a parameter file, or that a program
+   * states. All of them are multiplied by the factor of an Instant.
+   */
+  class BoundaryConditions
   {
   public:
-    BoundaryConditions();
+    using EdgeIds = std::set<types::boundary_id>;
+
+    /** The conditions of the edge @p id, to be added to. */
+    EdgeConditions &
+    edge(const types::boundary_id id)
+    {
+      return edges_[id];
+    }
+
+    /**
+     * Prescribe a displacement (length) on the edge with the boundary ids
+     * @p edge, of which Midsurface::edge_ids() knows those of a name.
+     */
+    void
+    prescribe(const EdgeIds  &edge,
+              const Direction direction,
+              const double    value = 0.);
+
+    /** Prescribe the rotation (rad) about the edge. */
+    void
+    prescribe_rotation(const EdgeIds &edge, const double value = 0.);
+
+    /** No displacement and no rotation of the edge. */
+    void
+    clamp(const EdgeIds &edge);
+
+    /** Add the support of a point. */
+    void
+    add_point(PointSupport &&support)
+    {
+      points_.push_back(std::move(support));
+    }
+
+    /** By boundary id. */
+    const std::map<types::boundary_id, EdgeConditions> &
+    edges() const
+    {
+      return edges_;
+    }
+
+    const std::vector<PointSupport> &
+    points() const
+    {
+      return points_;
+    }
+
+  private:
+    std::map<types::boundary_id, EdgeConditions> edges_;
+    std::vector<PointSupport>                    points_;
+  };
+
+  /** The section Boundary conditions of a parameter file. */
+  class BoundaryConditionParameters : public ParameterAcceptor
+  {
+  public:
+    BoundaryConditionParameters();
 
     /**
      * Read the conditions. Throws for unknown edges and conditions and for a
      * component that one edge prescribes twice.
      */
-    void
-    prepare(const Midsurface &midsurface, const Constants &constants);
+    BoundaryConditions
+    make(const Midsurface &midsurface, const Constants &constants) const;
 
     /** The edges that have conditions, as the parameter names them. */
     std::vector<std::string>
     named_edges() const;
-
-    /** Evaluate all values at @p time and multiply them by @p factor. */
-    void
-    set_time(const double time, const double factor);
-
-    /**
-     * The factor over t that set_time() will be called with, which must live as
-     * long: with it past displacements are known.
-     */
-    void
-    set_load_factor(const Expression &load_factor);
-
-    /** Of the last set_time(). */
-    double
-    time() const
-    {
-      return time_;
-    }
-
-    /**
-     * Whether the displacements of an edge may turn it: some along the axes are
-     * no constants, and the load factor is known.
-     */
-    bool
-    may_turn(const EdgeConditions &conditions) const;
-
-    /**
-     * The displacement (length) that is prescribed along the axes at @p point
-     * of an edge at any @p time; components that are free are zero. Throws
-     * where an expression isn't finite.
-     */
-    Tensor<1, 3>
-    displacement(const EdgeConditions &conditions,
-                 const Point<3>       &point,
-                 const double          time) const;
-
-    const std::map<types::boundary_id, EdgeConditions> &
-    edges() const;
-
-    const std::vector<PointSupport> &
-    points() const;
 
     /** The condition words that an edge may carry, for messages and --list. */
     static std::vector<std::string>
     condition_names();
 
   private:
-    /** Conditions of the edge @p name on all of its boundary ids. */
-    void
-    add_edge(const Midsurface               &midsurface,
-             const std::string              &name,
-             const std::vector<std::string> &items,
-             const Constants                &constants);
-
-    void
-    add_edge_item(EdgeConditions    &conditions,
-                  const std::string &item,
-                  const std::string &where,
-                  const Constants   &constants) const;
-
     std::string edges_text_;
     std::string points_text_;
-
-    std::map<types::boundary_id, EdgeConditions> edges_;
-    std::vector<PointSupport>                    points_;
-    const Expression                            *load_factor_ = nullptr;
-    double                                       time_        = 0.;
   };
 } // namespace Nacre
 

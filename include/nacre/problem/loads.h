@@ -9,6 +9,8 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace Nacre
@@ -24,25 +26,38 @@ namespace Nacre
   };
 
   /**
-   * Loads, given as expressions of x, y, z on the undeformed surface and of the
-   * time t: dead loads, and a pressure that may follow the deformed surface.
+   * Loads, functions of the points of the undeformed surface and of the time:
+   * dead loads, and a pressure that may follow the deformed surface. Values
+   * that LoadParameters reads from a parameter file, or that a program states.
+   * All of them are multiplied by the factor of an Instant.
    */
-  class Loads : public ParameterAcceptor
+  class Loads
   {
   public:
-    Loads();
+    /** @name Of the surface: zero at first */
+    //@{
+    /** Force per area along x, y, z (force/length^2). */
+    VectorExpression force;
+    /** Acceleration (length/time^2); the weight is density h gravity. */
+    VectorExpression gravity;
+    /** Along the unit normal t0 (force/length^2). */
+    Expression normal_pressure;
+    /** Whether the pressure acts along the deformed normal and area. */
+    bool follows = false;
+    //@}
 
-    /** Read the loads; throws for unknown edges and malformed expressions. */
+    /** The loads of the edge @p id; a second call replaces the first. */
     void
-    prepare(const Midsurface &midsurface, const Constants &constants);
+    set_edge_force(const types::boundary_id id, VectorExpression &&force);
 
-    /** The edges that have loads, as the parameters name them. */
-    std::vector<std::string>
-    named_edges() const;
-
-    /** Evaluate all loads at @p time and multiply them by @p factor. */
     void
-    set_time(const double time, const double factor);
+    set_edge_moment(const types::boundary_id id, Expression &&moment);
+
+    void
+    add_point_force(PointForce &&force)
+    {
+      point_forces_.push_back(std::move(force));
+    }
 
     /** Whether no dead load acts on the cells. */
     bool
@@ -57,7 +72,8 @@ namespace Nacre
     Tensor<1, 3>
     force_per_area(const Point<3>     &point,
                    const Tensor<1, 3> &t0,
-                   const double        area_density) const;
+                   const double        area_density,
+                   const Instant      &instant = Instant()) const;
 
     /** Whether a pressure acts: then all cells must be oriented alike. */
     bool
@@ -69,21 +85,53 @@ namespace Nacre
 
     /** Pressure (force/length^2) at a point of the undeformed surface. */
     double
-    pressure(const Point<3> &point) const;
+    pressure(const Point<3> &point, const Instant &instant) const
+    {
+      return normal_pressure(point, instant);
+    }
 
     /** Forces per length of edges (force/length). */
     const std::map<types::boundary_id, VectorExpression> &
-    edge_forces() const;
+    edge_forces() const
+    {
+      return edge_forces_;
+    }
 
     /**
      * Moments m_nn per length of edges (force), positive if it bends as a
      * positive bending strain does: l(v) = -int m theta(v) ds.
      */
     const std::map<types::boundary_id, Expression> &
-    edge_moments() const;
+    edge_moments() const
+    {
+      return edge_moments_;
+    }
 
     const std::vector<PointForce> &
-    point_forces() const;
+    point_forces() const
+    {
+      return point_forces_;
+    }
+
+  private:
+    std::map<types::boundary_id, VectorExpression> edge_forces_;
+    std::map<types::boundary_id, Expression>       edge_moments_;
+    std::vector<PointForce>                        point_forces_;
+  };
+
+  /** The section Loads of a parameter file. */
+  class LoadParameters : public ParameterAcceptor
+  {
+  public:
+    LoadParameters();
+
+    /** Read the loads; throws for unknown edges and malformed expressions. */
+    Loads
+    make(const Midsurface &midsurface, const Constants &constants) const;
+
+    /** The edges that have loads, as the parameters name them. */
+    std::vector<std::string>
+    named_edges() const;
 
   private:
     std::string force_text_    = "0, 0, 0";
@@ -93,13 +141,6 @@ namespace Nacre
     std::string edge_forces_text_;
     std::string edge_moments_text_;
     std::string point_forces_text_;
-
-    VectorExpression                               force_;
-    VectorExpression                               gravity_;
-    Expression                                     pressure_;
-    std::map<types::boundary_id, VectorExpression> edge_forces_;
-    std::map<types::boundary_id, Expression>       edge_moments_;
-    std::vector<PointForce>                        point_forces_;
   };
 } // namespace Nacre
 

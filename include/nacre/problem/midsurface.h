@@ -25,6 +25,7 @@
 namespace Nacre
 {
   class ParametricSurface;
+  struct SurfaceDescription;
 
   /**
    * The mid-surface phi0 of the shell: a coarse mesh in a chart and the map
@@ -36,28 +37,24 @@ namespace Nacre
    * and the exact map, so that refinement puts new nodes on the exact surface
    * and needs neither a manifold nor a pull-back.
    */
-  class Midsurface : public ParameterAcceptor
+  class Midsurface
   {
   public:
-    Midsurface();
-    ~Midsurface() override;
-
     /**
-     * How prepare() reads a mesh file: on rank 0 of @p communicator, a relative
-     * name from the @p folder of the parameter file. Without this call every
-     * process reads for itself.
+     * @param surface a surface that has passed the checks
+     * @param name what messages call it
      */
-    void
-    set_files(const MPI_Comm communicator, const std::string &folder);
+    explicit Midsurface(std::unique_ptr<const ParametricSurface> surface,
+                        const std::string &name = "surface");
 
-    /**
-     * Build the chosen surface. Throws for an unknown surface or edge, for
-     * parameters out of range, for a surface that is degenerate (area
-     * Jacobian zero or not finite), and for a file that isn't a good mesh.
-     * Collective if the surface is a file's.
-     */
-    void
-    prepare(const Constants &constants);
+    /** Throws as ParametricSurface does for a @p description that is wrong. */
+    explicit Midsurface(SurfaceDescription &&description,
+                        const std::string   &name = "surface");
+
+    Midsurface(Midsurface &&) noexcept;
+    Midsurface &
+    operator=(Midsurface &&) noexcept;
+    ~Midsurface();
 
     /**
      * The mesh of the mid-surface of cells like @p reference_cell, refined
@@ -86,7 +83,7 @@ namespace Nacre
     /**
      * Tell the names of the edges that conditions and loads use, in double
      * quotes or not: the edge 'boundary' of a mesh file is what they leave.
-     * Called after prepare(), before edge_ids().
+     * Called before edge_ids().
      */
     void
     use_edges(const std::vector<std::string> &names);
@@ -136,30 +133,56 @@ namespace Nacre
     std::string
     unknown_edge(const std::string &name, const std::string &where) const;
 
-    /** Write where the mesh file is into the parameters, for used.prm. */
-    void
-    fix_file_name() const;
-
-    /** @name Parameters */
-    //@{
-    std::string                surface_name_ = "plate";
-    std::string                subdivisions_ = "4, 4";
-    std::array<std::string, 2> grading_{{"s", "s"}};
-    /** Texts of the surfaces' own parameters by surface and parameter. */
-    std::map<std::string, std::map<std::string, std::string>> values_;
-    //@}
-
-    MPI_Comm    communicator_ = MPI_COMM_SELF;
-    std::string folder_;
-    /** With what the surface of a file was built: not again for the same. */
-    std::optional<Constants> constants_of_file_;
-
+    /** Not null. */
     std::unique_ptr<const ParametricSurface> surface_;
+    std::string                              name_;
     /** How each coarse quadrilateral is cut for triangles. */
     std::vector<unsigned int> diagonals_;
     std::vector<std::string>  edge_names_;
     /** Names of the edges that conditions and loads use. */
     std::set<std::string> edges_in_use_;
+  };
+
+  /** The section Mid-surface of a parameter file. */
+  class MidsurfaceParameters : public ParameterAcceptor
+  {
+  public:
+    MidsurfaceParameters();
+
+    /**
+     * How make() reads a mesh file: on rank 0 of @p communicator, a relative
+     * name from the @p folder of the parameter file. Without this call every
+     * process reads for itself.
+     */
+    void
+    set_files(const MPI_Comm communicator, const std::string &folder);
+
+    /**
+     * The chosen surface. Throws for an unknown surface, for parameters out of
+     * range, for a surface that is degenerate (area Jacobian zero or not
+     * finite), and for a file that isn't a good mesh. Collective if the surface
+     * is a file's.
+     * @param previous what the last call has returned, if it is still there: a
+     *   file is not read again for the same constants
+     */
+    Midsurface
+    make(const Constants &constants, std::optional<Midsurface> previous = {});
+
+  private:
+    /** Write where the mesh file is into the parameters, for used.prm. */
+    void
+    fix_file_name() const;
+
+    std::string                surface_name_ = "plate";
+    std::string                subdivisions_ = "4, 4";
+    std::array<std::string, 2> grading_{{"s", "s"}};
+    /** Texts of the surfaces' own parameters by surface and parameter. */
+    std::map<std::string, std::map<std::string, std::string>> values_;
+
+    MPI_Comm    communicator_ = MPI_COMM_SELF;
+    std::string folder_;
+    /** With what the last surface of a file was built. */
+    std::optional<Constants> constants_of_file_;
   };
 } // namespace Nacre
 

@@ -32,6 +32,28 @@ namespace Nacre
     double seconds = 0.;
   };
 
+  /** What is estimated. */
+  enum class EstimatorType
+  {
+    /** The error in the energy norm. */
+    residual,
+    /** The error of one quantity. */
+    goal
+  };
+
+  const Selection<EstimatorType> &selection(EstimatorType);
+
+  /** Which cells are refined. */
+  enum class MarkingType
+  {
+    /** The fewest that hold a fraction of the estimate. */
+    doerfler,
+    /** A fraction of all. */
+    fixed_fraction
+  };
+
+  const Selection<MarkingType> &selection(MarkingType);
+
   /**
    * Cycles of solving, estimating the error, and refining where it is large:
    * doc/adaptive.md.
@@ -67,20 +89,24 @@ namespace Nacre
     const GoalFunctional *
     goal() const;
 
-    /** The error of the last solve of @p problem; collective. */
+    /**
+     * The error of a solution of a linear analysis of @p model; collective.
+     * @param dual the ghosted dual solution of goal(); unused without
+     */
     ErrorEstimate
-    estimate(const ShellProblem &problem) const;
+    estimate(const ShellModel                    &model,
+             const SolvedShell                   &solution,
+             const TrilinosWrappers::MPI::Vector &dual) const;
 
     /** Columns of the table that tell of the estimate. */
     std::vector<ResultsTable::Quantity>
     columns(const ExactSolution &exact_solution) const;
 
     /**
-     * Add their values to a row.
-     * @param values of the quantities
+     * Add their values to the row of the @p solution.
      */
     void
-    add_to_row(const ShellProblem  &problem,
+    add_to_row(const SolvedShell   &solution,
                const ErrorEstimate &estimate,
                ResultsTable::Row   &row) const;
 
@@ -89,12 +115,12 @@ namespace Nacre
     mark(const ErrorEstimate &estimate, const Discretization &mesh) const;
 
   private:
-    unsigned int n_cycles_  = 0;
-    std::string  estimator_ = "residual";
-    std::string  goal_name_;
-    std::string  marking_  = "Doerfler";
-    double       fraction_ = 0.5;
-    unsigned int max_dofs_ = 1000000;
+    unsigned int  n_cycles_  = 0;
+    EstimatorType estimator_ = EstimatorType::residual;
+    std::string   goal_name_;
+    MarkingType   marking_  = MarkingType::doerfler;
+    double        fraction_ = 0.5;
+    unsigned int  max_dofs_ = 1000000;
 
     /** Place of the goal among the quantities. */
     std::optional<unsigned int> goal_index_;

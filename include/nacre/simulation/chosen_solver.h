@@ -4,6 +4,7 @@
 #ifndef nacre_simulation_chosen_solver_h
 #define nacre_simulation_chosen_solver_h
 
+#include <nacre/base/selection.h>
 #include <nacre/solvers/direct_solver.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -16,13 +17,30 @@ namespace Nacre
 {
   class Log;
 
-  /** The parameters of "Linear solver". */
+  /** How linear systems are solved. */
+  enum class SolverType
+  {
+    /** Whichever is expected to be faster. */
+    automatic,
+    direct,
+    multigrid
+  };
+
+  const Selection<SolverType> &selection(SolverType);
+
+  struct SolverParameters
+  {
+    SolverType type = SolverType::automatic;
+    /** Of multigrid, before it gives up. */
+    unsigned int max_iterations = 100;
+  };
+
+  /** The section Linear solver of a parameter file. */
   struct LinearSolverParameters : public ParameterAcceptor
   {
     LinearSolverParameters();
 
-    std::string  solver         = "auto";
-    unsigned int max_iterations = 100;
+    SolverParameters values;
   };
 
   /** What the choice of a solver depends on. */
@@ -75,7 +93,13 @@ namespace Nacre
     std::optional<unsigned int>
     n_negative_pivots() const override;
 
-    /** "direct" or "multigrid": the one that solved last. */
+    /** The one that solved last, direct or multigrid. */
+    SolverType
+    type() const
+    {
+      return multigrid_ != nullptr ? SolverType::multigrid : SolverType::direct;
+    }
+
     std::string
     name() const;
 

@@ -6,8 +6,8 @@
 
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/postprocess/quantities_of_interest.h>
-#include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/checkpoint.h>
+#include <nacre/simulation/output_options.h>
 
 #include <deal.II/base/timer.h>
 
@@ -25,20 +25,10 @@ namespace Nacre
   class PathMonitor
   {
   public:
-    struct Options
-    {
-      std::string        folder;
-      std::string        name;
-      VtuOutput::Options fields;
-      bool               write_vtu;
-      bool               report_seconds;
-      unsigned int       vtu_steps;
-      unsigned int       checkpoint_steps;
-      TimeGrid           grid;
-    };
-
+    /** @param options with the name of the path's own files */
     PathMonitor(const MPI_Comm              communicator,
-                const Options              &options,
+                const OutputOptions        &options,
+                const PathParameters       &path,
                 const QuantitiesOfInterest &quantities,
                 Checkpoint                 &checkpoint,
                 Log                        &log);
@@ -74,9 +64,6 @@ namespace Nacre
     std::string
     csv_header() const;
 
-    std::string
-    file(const std::string &ending) const;
-
     void
     write_row(const PathState &state, const std::vector<double> &values);
 
@@ -90,7 +77,9 @@ namespace Nacre
     save(const PathState &state);
 
     const MPI_Comm              communicator_;
-    const Options               options_;
+    const OutputOptions         options_;
+    const PathParameters       &path_;
+    const TimeGrid              grid_;
     const QuantitiesOfInterest &quantities_;
     Checkpoint                 &checkpoint_;
     Log                        &log_;

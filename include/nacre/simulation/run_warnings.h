@@ -11,7 +11,7 @@ namespace Nacre
 {
   class Discretization;
   class Log;
-  class PathParameters;
+  class Expression;
   struct ProblemRecord;
 
   /** That a path has linear kinematics. */
@@ -30,9 +30,9 @@ namespace Nacre
 
   /** That the load factor and what it multiplies both depend on t. */
   void
-  warn_of_load_factor(const PathParameters &parameters,
-                      const ProblemRecord  &problem,
-                      Log                  &log);
+  warn_of_load_factor(const Expression    &load_factor,
+                      const ProblemRecord &problem,
+                      Log                 &log);
 } // namespace Nacre
 
 #endif

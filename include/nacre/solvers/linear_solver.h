@@ -4,6 +4,7 @@
 #ifndef nacre_solvers_linear_solver_h
 #define nacre_solvers_linear_solver_h
 
+#include <nacre/base/instant.h>
 #include <nacre/base/types.h>
 
 #include <deal.II/base/exceptions.h>
@@ -58,6 +59,8 @@ namespace Nacre
     const AffineConstraints<double> &constraints;
     /** The ghosted displacement of which K is the tangent; null for zero. */
     const TrilinosWrappers::MPI::Vector *u = nullptr;
+    /** The loads and prescribed rotations of which K is the tangent. */
+    Instant instant = Instant();
   };
 
   /**

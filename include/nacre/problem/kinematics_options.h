@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_forms_kinematics_options_h
-#define nacre_forms_kinematics_options_h
+#ifndef nacre_problem_kinematics_options_h
+#define nacre_problem_kinematics_options_h
 
-#include <string>
-#include <vector>
+#include <nacre/base/selection.h>
 
 namespace Nacre
 {
@@ -24,9 +23,7 @@ namespace Nacre
     reduced
   };
 
-  /** Names of MembraneStrain in its order. */
-  const std::vector<std::string> &
-  membrane_strain_names();
+  const Selection<MembraneStrain> &selection(MembraneStrain);
 
   /**
    * Whether results take the tied membrane strain: for all but `full`. A form
@@ -46,9 +43,7 @@ namespace Nacre
     averaged_normal
   };
 
-  /** Names of EdgeForm in its order. */
-  const std::vector<std::string> &
-  edge_form_names();
+  const Selection<EdgeForm> &selection(EdgeForm);
 
   /** How strains follow from displacements. */
   enum class KinematicsModel
@@ -59,11 +54,12 @@ namespace Nacre
     corotational
   };
 
-  /** Names of KinematicsModel in its order. */
-  const std::vector<std::string> &
-  kinematics_model_names();
+  const Selection<KinematicsModel> &selection(KinematicsModel);
 
-  /** The derivative of nonlinear internal forces and following loads. */
+  /**
+   * The matrix of a linearisation of nonlinear internal forces and following
+   * loads.
+   */
   enum class TangentType
   {
     /** Rotations held: not the derivative, but symmetric, (47). */
@@ -71,15 +67,14 @@ namespace Nacre
     /** The symmetric part of the derivative, for symmetric solvers. */
     symmetric,
     /**
-     * The derivative: unsymmetric by 1e-4 to 1e-3 since the bending forces
-     * are no exact gradient. A solver that reads one triangle diverges.
+     * The derivative itself: unsymmetric by 1e-4 to 1e-3, since the
+     * co-rotational bending forces are no exact gradient. The solvers of
+     * LinearSolver read one triangle and can't take it; it serves comparisons.
      */
     consistent
   };
 
-  /** Names of TangentType in its order. */
-  const std::vector<std::string> &
-  tangent_type_names();
+  const Selection<TangentType> &selection(TangentType);
 
   /** Which Kinematics make_kinematics() makes. */
   struct KinematicsOptions

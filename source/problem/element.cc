@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/discretization/element.h>
 #include <nacre/elements/fe_serendipity.h>
+#include <nacre/problem/element.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -11,13 +11,14 @@
 
 namespace Nacre
 {
-  const std::vector<std::string> &
-  element_names()
+  const Selection<ElementType> &
+  selection(ElementType)
   {
-    static const std::vector<std::string> names = {"Lagrange",
-                                                   "serendipity",
-                                                   "triangle"};
-    return names;
+    static const Selection<ElementType> table = {
+      {ElementType::lagrange, "Lagrange"},
+      {ElementType::serendipity, "serendipity"},
+      {ElementType::triangle, "triangle"}};
+    return table;
   }
 
   ReferenceCell

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_discretization_element_h
-#define nacre_discretization_element_h
+#ifndef nacre_problem_element_h
+#define nacre_problem_element_h
 
+#include <nacre/base/selection.h>
 #include <nacre/base/types.h>
 
 #include <deal.II/base/quadrature.h>
@@ -11,7 +12,6 @@
 #include <deal.II/grid/reference_cell.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace dealii
@@ -33,9 +33,7 @@ namespace Nacre
     triangle
   };
 
-  /** Names of ElementType in its order. */
-  const std::vector<std::string> &
-  element_names();
+  const Selection<ElementType> &selection(ElementType);
 
   /**
    * The choice of an element, and what follows from it: cells, shape functions

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/simulation/analysis.h>
+#include <nacre/simulation/linear_analysis.h>
+#include <nacre/simulation/path_run.h>
+
+namespace Nacre
+{
+  std::unique_ptr<Analysis>
+  make_analysis(const MPI_Comm            communicator,
+                const ShellProblem       &problem,
+                const AdaptiveRefinement &adaptive,
+                Log                      &log)
+  {
+    if (problem.path.is_linear())
+      return std::make_unique<LinearAnalysis>(communicator,
+                                              problem,
+                                              adaptive,
+                                              log);
+    return std::make_unique<PathRun>(communicator, problem, log);
+  }
+} // namespace Nacre

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+#include <nacre/multigrid/multigrid_solver.h>
+#include <nacre/simulation/discrete_shell.h>
+#include <nacre/simulation/memory_estimate.h>
+
+#include <sstream>
+#include <utility>
+
+namespace Nacre
+{
+  namespace
+  {
+    Discretization
+    discretize(const MPI_Comm                       communicator,
+               const ShellProblem                  &problem,
+               std::unique_ptr<DiscreteShell::Mesh> mesh)
+    {
+      const ShellModel &model = problem.model;
+      if (mesh == nullptr)
+        mesh =
+          model.midsurface.create_triangulation(communicator,
+                                                model.element.reference_cell(),
+                                                problem.n_refinements);
+      return Discretization(
+        std::move(mesh),
+        [&midsurface = model.midsurface](const auto &cell, const auto &unit) {
+          return midsurface.position(cell, unit);
+        },
+        model.element,
+        model.mapping_degree);
+    }
+
+    /** Throws if rigid motions are left free, naming them. */
+    void
+    check_supports(const DisplacementConditions &conditions)
+    {
+      const auto motions = conditions.free_rigid_motions();
+      if (motions.empty())
+        return;
+      std::string text = "Boundary conditions: the shell can move freely:";
+      for (const auto &motion : motions)
+        text += (&motion == &motions.front() ? " " : "; ") + motion;
+      AssertThrow(false,
+                  ExcMessage(text + ". Prescribe more on its edges, or at "
+                                    "points."));
+    }
+  } // namespace
+
+  DiscreteShell::DiscreteShell(const MPI_Comm        communicator,
+                               const ShellProblem   &problem,
+                               std::unique_ptr<Mesh> mesh,
+                               const unsigned int    n_right_hand_sides,
+                               Log                  &log)
+    : problem_(problem)
+    , discretization_(discretize(communicator, problem, std::move(mesh)))
+    , conditions_(discretization_, problem.model.supports)
+    , operator_(discretization_, problem.model)
+  {
+    // Inertia holds a shell as well.
+    if (!problem.path.is_dynamic())
+      check_supports(conditions_);
+    warn_of_penalty(log);
+    solver_ = make_solver(n_right_hand_sides, log);
+    report_memory(discretization_,
+                  solver_->type() == SolverType::direct ?
+                    SolverStorage::factors :
+                    SolverStorage::multigrid,
+                  free_memory(communicator),
+                  log);
+  }
+
+  void
+  DiscreteShell::warn_of_penalty(Log &log) const
+  {
+    const auto  &eta   = problem_.model.eta;
+    const double bound = operator_.penalty().bound();
+    if (!eta || *eta >= bound)
+      return;
+    std::ostringstream text;
+    text << "Study/Penalties: eta = " << *eta << " is below the bound " << bound
+         << " that makes the form coercive; the matrix may be indefinite.";
+    log.warning(text.str());
+  }
+
+  std::unique_ptr<ChosenSolver>
+  DiscreteShell::make_solver(const unsigned int n_right_hand_sides,
+                             Log               &log) const
+  {
+    const SolverParameters &chosen = problem_.solver;
+    const bool can_coarsen = MultigridSolver::has_coarser_mesh(discretization_);
+    if (chosen.type == SolverType::multigrid && !can_coarsen)
+      log.warning(
+        "Linear solver/Solver: the mesh is not refined from a coarser one, "
+        "nor is there a coarser space than degree 2; the direct solver is "
+        "taken.");
+    SolverTask task;
+    task.n_dofs             = discretization_.dof_handler().n_dofs();
+    task.degree             = discretization_.degree();
+    task.n_right_hand_sides = n_right_hand_sides;
+    task.n_levels = discretization_.triangulation().n_global_levels() - 1;
+    task.memory   = free_memory(discretization_.communicator());
+
+    ChosenSolver::Factory make_multigrid;
+    if (can_coarsen && !problem_.path.is_dynamic() &&
+        (chosen.type == SolverType::multigrid ||
+         (chosen.type == SolverType::automatic && prefers_multigrid(task))))
+      make_multigrid = [&]() {
+        MultigridSolver::Parameters parameters;
+        parameters.max_iterations = chosen.max_iterations;
+        return std::make_unique<MultigridSolver>(discretization_,
+                                                 problem_.model,
+                                                 parameters,
+                                                 &conditions_);
+      };
+    return std::make_unique<ChosenSolver>(discretization_.communicator(),
+                                          make_multigrid,
+                                          log);
+  }
+
+  void
+  DiscreteShell::check_integrands() const
+  {
+    const TrilinosWrappers::MPI::Vector zero   = ghosted_vector();
+    TrilinosWrappers::MPI::Vector       unused = owned_vector();
+    operator_.residual(zero, operator_.actions(problem_.model.at(0.)), unused);
+  }
+} // namespace Nacre
