@@ -3,6 +3,7 @@
 
 #include <nacre/forms/averaged_normal_kinematics.h>
 #include <nacre/forms/corotational_kinematics.h>
+#include <nacre/forms/finite_kinematics.h>
 
 #include <tuple>
 
@@ -31,7 +32,9 @@ namespace Nacre
   const std::vector<std::string> &
   kinematics_model_names()
   {
-    static const std::vector<std::string> names = {"linear", "corotational"};
+    static const std::vector<std::string> names = {"linear",
+                                                   "corotational",
+                                                   "finite"};
     return names;
   }
 
@@ -173,6 +176,16 @@ namespace Nacre
                                                       section,
                                                       options.membrane_strain,
                                                       options.tangent);
+    if (options.model == KinematicsModel::finite)
+      {
+        AssertThrow(options.tangent != TangentType::frozen,
+                    ExcMessage("Discretization/Tangent: 'frozen' is of the "
+                               "co-rotational form; 'Kinematics = finite' has "
+                               "the exact one only: choose 'consistent'."));
+        return std::make_unique<FiniteKinematics>(discretization,
+                                                  section,
+                                                  options.membrane_strain);
+      }
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

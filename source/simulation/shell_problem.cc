@@ -77,9 +77,11 @@ namespace Nacre
     add_parameter("Kinematics",
                   kinematics_name_,
                   "linear: small displacements; corotational: large rotations "
-                  "with small strains, in frames that turn with the material.",
+                  "with small strains, in frames that turn with the material; "
+                  "finite: exact rotations and Green strains of any size, one "
+                  "energy with its exact gradient and symmetric derivative.",
                   prm,
-                  Patterns::Selection("linear|corotational"));
+                  Patterns::Selection("linear|corotational|finite"));
     add_parameter(
       "Tangent",
       tangent_name_,
@@ -135,8 +137,8 @@ namespace Nacre
     exact_solution_.prepare(constants_);
     path_parameters_.prepare(constants_);
     AssertThrow(kinematics_name_ == "linear" || edge_form_name_ == "hinge",
-                ExcMessage("Discretization/Edge form: co-rotational kinematics "
-                           "has the hinge form only; found '" +
+                ExcMessage("Discretization/Edge form: co-rotational and finite "
+                           "kinematics have the hinge form only; found '" +
                            edge_form_name_ + "'."));
     AssertThrow(solver_parameters_->solver != "multigrid" ||
                   path_parameters_.type != AnalysisType::dynamic,
