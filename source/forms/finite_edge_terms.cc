@@ -26,8 +26,10 @@ namespace Nacre
     }
   } // namespace
 
-  FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section)
+  FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,
+                                   const bool        limits_gap)
     : section_(section)
+    , limits_gap_(limits_gap)
   {}
 
   void
@@ -158,7 +160,7 @@ namespace Nacre
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
         const auto         &rows    = point_.side(s).rows;
-        const auto          K       = point_.hessian(s);
+        const auto          K       = point_.hessian(s, limits_gap_);
         const auto          jump    = point_.jump_gradient(s);
         const auto          moment  = point_.moment_gradient(s);
         const double        mean    = point_.side(s).mean_factor;

@@ -184,7 +184,8 @@ namespace Nacre
                                "the exact one only: choose 'consistent'."));
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
-                                                  options.membrane_strain);
+                                                  options.membrane_strain,
+                                                  options.tangent);
       }
     return std::make_unique<LinearKinematics>(discretization,
                                               section,

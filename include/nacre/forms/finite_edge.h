@@ -259,12 +259,27 @@ namespace Nacre
      * rotation_force() d2(theta) + moment_force() d2(lambda m_nn) of the side
      * @p s, less what the antisymmetric parts of both sides' d2(theta) have in
      * common: they cancel.
+     *
+     * An edge that has not yet reached its prescribed rotation, at the start of
+     * a step, stands under the penalty's moment, many times the shell's; with
+     * its stiffness Newton's method loses its way. @p limits_gap takes a
+     * moment of the penalty of at most {lambda m_nn}, which changes nothing
+     * near the solution.
      */
     Hessian
-    hessian(const unsigned int s) const
+    hessian(const unsigned int s, const bool limits_gap = false) const
     {
       Hessian K;
-      add_rotation_hessian(s, K);
+      Number  force = rotation_force();
+      if (limits_gap && n_sides_ == 1)
+        {
+          using std::abs;
+          const double shell   = abs(fluxes_.consistency * mean_);
+          const double penalty = abs(fluxes_.penalty * jump_);
+          if (penalty > shell)
+            force += (shell / penalty - 1.) * fluxes_.penalty * jump_;
+        }
+      add_rotation_hessian(s, force, K);
       add_moment_hessian(s, K);
       for (unsigned int k = 0; k < 2; ++k)
         {
@@ -387,19 +402,20 @@ namespace Nacre
     }
 
     /**
-     * Half of the diagonal blocks and K[0][1] of rotation_force() d2(theta).
+     * Half of the diagonal blocks and K[0][1] of @p force d2(theta).
      * The angle of t has the variation t . v_n; its own second one is
      * -(nu . w_e) (t . v_e) / |e|^2 - T(v) . w_n - T(w) . v_n, the first term
      * of which is replaced by its symmetric part.
      */
     void
-    add_rotation_hessian(const unsigned int s, Hessian &K) const
+    add_rotation_hessian(const unsigned int s,
+                         const Number      &force,
+                         Hessian           &K) const
     {
       const Side   &side   = sides_[s];
       const Vector &t      = side.normal;
       const Vector &nu     = side.conormal;
-      const Number  f      = rotation_force();
-      const Number  of_t   = side.jump_factor * f;
+      const Number  of_t   = side.jump_factor * force;
       const Number  length = side.length;
       K[0][0] -= (0.5 * of_t / (length * length)) * outer_product(t, nu);
       K[0][1] -= (of_t / length) * outer_product(t, side.tangent);
@@ -409,7 +425,7 @@ namespace Nacre
       // spin . v_e / |e| of t_bar, spin = d x c / (1 + d . c), dd = P w_e / |e|
       const Vector &d     = side.tangent;
       const Vector  c     = prescribed_tangent_;
-      const Number  scale = 0.5 * f / (length * length);
+      const Number  scale = 0.5 * force / (length * length);
       for (unsigned int i = 0; i < spacedim; ++i)
         {
           Vector dd = -d[i] * d;

@@ -21,7 +21,8 @@ namespace Nacre
   class FiniteEdgeTerms
   {
   public:
-    explicit FiniteEdgeTerms(const SectionLaw &section);
+    /** @param limits_gap of FiniteEdgePoint::hessian() */
+    FiniteEdgeTerms(const SectionLaw &section, const bool limits_gap);
 
     /**
      * Add the terms at the displacement @p u of the edge's dofs; zero if empty.
@@ -88,6 +89,7 @@ namespace Nacre
                  LocalTerms            &terms) const;
 
     const SectionLaw                  &section_;
+    const bool                         limits_gap_;
     FiniteEdgePoint<double>            point_;
     std::array<NodeVectors<double>, 2> u_;
     NodeVectors<double>                force_;

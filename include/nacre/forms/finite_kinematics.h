@@ -17,11 +17,17 @@ namespace Nacre
   class FiniteKinematics : public Kinematics
   {
   public:
+    /**
+     * @param tangent_type consistent: the exact Hessian; symmetric: the same
+     *   but for edges far from their prescribed rotation, which Newton's method
+     *   then reaches from further away (FiniteEdgePoint::hessian())
+     */
     FiniteKinematics(const Discretization &discretization,
                      const SectionLaw     &section,
-                     const MembraneStrain  membrane_strain)
+                     const MembraneStrain  membrane_strain,
+                     const TangentType     tangent_type)
       : cell_terms_(discretization, section, membrane_strain)
-      , edge_terms_(section)
+      , edge_terms_(section, tangent_type == TangentType::symmetric)
     {}
 
     std::unique_ptr<Kinematics>
