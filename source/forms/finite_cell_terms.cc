@@ -58,7 +58,7 @@ namespace Nacre
     }
   } // namespace
 
-  FiniteCellTerms::CellPoints::CellPoints(const Discretization &discretization,
+  FiniteCellTerms::CellPoints::CellPoints(const Discretization  &discretization,
                                           const Quadrature<dim> &quadrature,
                                           const bool             tied,
                                           const bool             bends)
@@ -83,10 +83,9 @@ namespace Nacre
   }
 
   void
-  FiniteCellTerms::add(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u,
-    LocalTerms                                        &terms)
+  FiniteCellTerms::add(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                       const Vector<double>                              &u,
+                       LocalTerms                                        &terms)
   {
     extract_nodes(full_points_.values, u, u_);
     add_terms(cell, false, terms);
@@ -234,14 +233,17 @@ namespace Nacre
       m_b += (v < 2 ? 1. : 2.) * m[v] * (frame.a_cov_derivatives[v] * t);
     for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
       {
-        const auto &dN    = values.shapes().gradient(q, a);
-        const auto  kappa = ShellStrain::bending_of_shape_function(
-          frame, dN, values.shapes().hessian(q, a));
+        const auto &dN = values.shapes().gradient(q, a);
+        const auto  kappa =
+          ShellStrain::bending_of_shape_function(frame,
+                                                 dN,
+                                                 values.shapes().hessian(q, a));
         // V = m^ab (N,ab - Gamma^g_ab N,g) and half of m : b
-        const double  V = -(m * kappa);
-        const Vector3 dN_con[2] = {
-          frame.metric_con[0] * t * dN[0] + frame.metric_con[2] * t * dN[1],
-          frame.metric_con[2] * t * dN[0] + frame.metric_con[1] * t * dN[1]};
+        const double  V         = -(m * kappa);
+        const Vector3 dN_con[2] = {frame.metric_con[0] * t * dN[0] +
+                                     frame.metric_con[2] * t * dN[1],
+                                   frame.metric_con[2] * t * dN[0] +
+                                     frame.metric_con[1] * t * dN[1]};
         for (unsigned int c = 0; c < spacedim; ++c)
           {
             const unsigned int i = values.dof(a, c);
@@ -308,11 +310,11 @@ namespace Nacre
         const auto &n = points.cell.tying_force(k);
         for (unsigned int a = 0; a < n_nodes; ++a)
           {
-            const auto &dN                = shapes.gradient(k, a);
-            gradient_rows_(2 * k, a)      = dN[0];
-            gradient_rows_(2 * k + 1, a)  = dN[1];
-            force_rows_(2 * k, a)         = n[0] * dN[0] + n[2] * dN[1];
-            force_rows_(2 * k + 1, a)     = n[2] * dN[0] + n[1] * dN[1];
+            const auto &dN               = shapes.gradient(k, a);
+            gradient_rows_(2 * k, a)     = dN[0];
+            gradient_rows_(2 * k + 1, a) = dN[1];
+            force_rows_(2 * k, a)        = n[0] * dN[0] + n[2] * dN[1];
+            force_rows_(2 * k + 1, a)    = n[2] * dN[0] + n[1] * dN[1];
           }
       }
     node_product_.reinit(n_nodes, n_nodes, true);

@@ -10,7 +10,7 @@ namespace Nacre
 {
   namespace
   {
-    using Vector3 = Tensor<1, spacedim>;
+    using Vector3   = Tensor<1, spacedim>;
     using EdgePoint = FiniteEdgePoint<double>;
 
     Vector3
@@ -41,8 +41,8 @@ namespace Nacre
   void
   FiniteEdgeStep::reinit(const ShellEdgeValues                   &edge,
                          const unsigned int                       q,
-                         const EdgePoint                            &start,
-                         const EdgePoint                            &end,
+                         const EdgePoint                         &start,
+                         const EdgePoint                         &end,
                          const std::array<PrescribedRotation, 2> &rotations)
   {
     rotation_work_ = 0.;
@@ -61,8 +61,8 @@ namespace Nacre
 
   void
   FiniteEdgeStep::add_angle_forces(
-    const EdgePoint                            &start,
-    const EdgePoint                            &end,
+    const EdgePoint                         &start,
+    const EdgePoint                         &end,
     const ShellEdgeValues                   &edge,
     const unsigned int                       q,
     const std::array<PrescribedRotation, 2> &rotations)
@@ -89,8 +89,8 @@ namespace Nacre
 
   void
   FiniteEdgeStep::turn_as_prescribed(
-    const EdgePoint                            &start,
-    const EdgePoint                            &end,
+    const EdgePoint                         &start,
+    const EdgePoint                         &end,
     const ShellEdgeValues                   &edge,
     const unsigned int                       q,
     const std::array<PrescribedRotation, 2> &rotations,
@@ -120,19 +120,19 @@ namespace Nacre
   }
 
   void
-  FiniteEdgeStep::add_moment_forces(const EdgePoint          &start,
-                                    const EdgePoint          &end,
+  FiniteEdgeStep::add_moment_forces(const EdgePoint       &start,
+                                    const EdgePoint       &end,
                                     const ShellEdgeValues &edge,
                                     const unsigned int     q,
                                     const unsigned int     s)
   {
-    const auto   &first    = start.side(s);
-    const auto   &last     = end.side(s);
-    Side         &side     = sides_[s];
-    const double  force    = 0.5 * (start.moment_force(s) + end.moment_force(s));
-    const double  lambda   = 0.5 * (first.lambda + last.lambda);
-    const double  moment   = 0.5 * (first.moment + last.moment);
-    const auto    nu_con   = conormal_components(edge, s, q);
+    const auto   &first  = start.side(s);
+    const auto   &last   = end.side(s);
+    Side         &side   = sides_[s];
+    const double  force  = 0.5 * (start.moment_force(s) + end.moment_force(s));
+    const double  lambda = 0.5 * (first.lambda + last.lambda);
+    const double  moment = 0.5 * (first.moment + last.moment);
+    const auto    nu_con = conormal_components(edge, s, q);
     const Vector3 p =
       nu_con[0] * mean(first.deformed.a_cov[0], last.deformed.a_cov[0]) +
       nu_con[1] * mean(first.deformed.a_cov[1], last.deformed.a_cov[1]);
@@ -145,8 +145,8 @@ namespace Nacre
   }
 
   void
-  FiniteEdgeStep::set_basis_forces(const EdgePoint          &start,
-                                   const EdgePoint          &end,
+  FiniteEdgeStep::set_basis_forces(const EdgePoint       &start,
+                                   const EdgePoint       &end,
                                    const ShellEdgeValues &edge,
                                    const unsigned int     q,
                                    const unsigned int     s)

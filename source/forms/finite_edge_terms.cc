@@ -159,12 +159,12 @@ namespace Nacre
     const auto &fluxes = point_.fluxes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
-        const auto         &rows    = point_.side(s).rows;
-        const auto          K       = point_.hessian(s, limits_gap_);
-        const auto          jump    = point_.jump_gradient(s);
-        const auto          moment  = point_.moment_gradient(s);
-        const double        mean    = point_.side(s).mean_factor;
-        const unsigned int  n_nodes = rows[0].size();
+        const auto            &rows    = point_.side(s).rows;
+        const auto             K       = point_.hessian(s, limits_gap_);
+        const auto             jump    = point_.jump_gradient(s);
+        const auto             moment  = point_.moment_gradient(s);
+        const double           mean    = point_.side(s).mean_factor;
+        const unsigned int     n_nodes = rows[0].size();
         std::array<Vector3, 3> trial;
         for (unsigned int k = 0; k < 3; ++k)
           trial[k] = 0.5 * fluxes.penalty * jump[k] +

@@ -282,8 +282,9 @@ test_shell(const Element       &element,
            const std::string   &edges,
            const std::string   &moments)
 {
-  const Shell shell(creased_text(edges) + "subsection Loads\n" +
-                      (moments.empty() ? "" : " set Edge moments = " + moments) +
+  const Shell  shell(creased_text(edges) + "subsection Loads\n" +
+                      (moments.empty() ? "" :
+                                          " set Edge moments = " + moments) +
                       "\nend\n",
                     element);
   ComplexShell complex_shell(*shell.discretization,
@@ -292,8 +293,9 @@ test_shell(const Element       &element,
                              shell.loads.get(),
                              strain);
   compare_derivatives(case_name(element, strain) +
-                        (!moments.empty() ? "moments" :
-                         edges.size() < 15 ? "clamped" : "conditions"),
+                        (!moments.empty()  ? "moments" :
+                         edges.size() < 15 ? "clamped" :
+                                             "conditions"),
                       *shell.discretization,
                       *shell.make_operator(finite(strain)),
                       complex_shell,

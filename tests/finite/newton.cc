@@ -76,8 +76,8 @@ strip(const double       thickness,
   return Shell(
     "subsection Mid-surface\n set Surface = plate\n set Subdivisions = 8, 1\n"
     " subsection plate\n  set Size = 10, 1\n end\nend\n" +
-      section_text(1.2e6, 0., thickness) + edges_parameter +
-      "u=0: clamped" + edges + "\nend\n" + loads,
+      section_text(1.2e6, 0., thickness) + edges_parameter + "u=0: clamped" +
+      edges + "\nend\n" + loads,
     {ElementType::lagrange, 3});
 }
 
@@ -85,15 +85,13 @@ void
 test_end_force()
 {
   const Shell shell =
-    strip(0.1,
-          "",
-          "subsection Loads\n set Edge forces = u=1: 0, 0, 4\nend\n");
-  auto       u       = zero_vector(*shell.discretization);
-  const auto changes = newton(shell,
-                              *shell.make_operator(
-                                finite(MembraneStrain::tied,
-                                       TangentType::symmetric)),
-                              u);
+    strip(0.1, "", "subsection Loads\n set Edge forces = u=1: 0, 0, 4\nend\n");
+  auto       u = zero_vector(*shell.discretization);
+  const auto changes =
+    newton(shell,
+           *shell.make_operator(
+             finite(MembraneStrain::tied, TangentType::symmetric)),
+           u);
   report("end force", changes);
   check_above("end force: order", observed_order(changes), 1.7);
   check_below("end force: iterations", changes.size(), 20.5);
@@ -114,8 +112,8 @@ test_roll(const KinematicsModel model, const double thickness)
               "; v=0, v=1: y = 0; u=1: rotation = " + std::to_string(step) +
                 "*pi/" + std::to_string(n_steps),
               "");
-      KinematicsOptions options(finite(MembraneStrain::tied,
-                                       TangentType::symmetric));
+      KinematicsOptions options(
+        finite(MembraneStrain::tied, TangentType::symmetric));
       options.model = model;
       if (step == 1)
         u = zero_vector(*shell.discretization);
@@ -124,8 +122,8 @@ test_roll(const KinematicsModel model, const double thickness)
     }
   const auto name = kinematics_model_names()[static_cast<int>(model)] +
                     ", thickness " + std::to_string(thickness) + ": ";
-  report(name, changes);
-  check_below(name + "iterations", most, 10.5);
+  report(name + "last step", changes);
+  check_below(name + "iterations", most, 12.5);
   if (model == KinematicsModel::finite)
     check_above(name + "order", observed_order(changes), 1.7);
 }
@@ -135,7 +133,7 @@ main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_end_force();
-  for (const double thickness : {0.1, 0.4})
+  for (const double thickness : {0.1, 1.})
     {
       test_roll(KinematicsModel::finite, thickness);
       test_roll(KinematicsModel::corotational, thickness);

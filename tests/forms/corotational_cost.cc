@@ -35,10 +35,9 @@ main(int argc, char *argv[])
       const auto            u = interpolate(*discretization, some_field);
       std::array<double, 3> seconds{{1e100, 1e100, 1e100}};
       std::array<std::unique_ptr<ShellOperator>, 3> operators;
-      for (const auto model :
-           {KinematicsModel::linear,
-            KinematicsModel::corotational,
-            KinematicsModel::finite})
+      for (const auto model : {KinematicsModel::linear,
+                               KinematicsModel::corotational,
+                               KinematicsModel::finite})
         operators[static_cast<int>(model)] = std::make_unique<ShellOperator>(
           *discretization,
           parameters.section,
@@ -68,7 +67,8 @@ main(int argc, char *argv[])
                     ": co-rotational / linear assembly",
                   seconds[1] / seconds[0],
                   2.5);
-      check_below("p = " + std::to_string(degree) + ": finite / linear assembly",
+      check_below("p = " + std::to_string(degree) +
+                    ": finite / linear assembly",
                   seconds[2] / seconds[0],
                   2.);
     }

@@ -410,7 +410,12 @@ def moment_is_the_energys_derivative(nacre):
 @case(1)
 def moment_is_the_derivative_of_finite_rotations(nacre):
     """The same; both ends' moments balance to the solver's accuracy."""
-    check_moment_of_a_turned_end(nacre, "finite", 1e-7)
+    rows = check_moment_of_a_turned_end(nacre, "finite", 1e-7)
+    # Simpson's rule for the work of the moment
+    for before, row, after in zip(rows[2:], rows[3:], rows[4:]):
+        mean = (before["T"] + 4 * row["T"] + after["T"]) / 6
+        near(after["U"] - before["U"], mean * (after["time"] - before["time"]),
+             1e-5, f"work until {after['time']}")
 
 
 def check_moment_of_a_turned_end(nacre, kinematics, tolerance):
@@ -434,6 +439,7 @@ def check_moment_of_a_turned_end(nacre, kinematics, tolerance):
         near(row["T"], slope, 5e-3, f"T at {row['time']}")
         near(row["S"], 0., tolerance, "moments of both ends", abs(row["T"]))
         near(row["R"], -row["T"], tolerance, "moment of the other end")
+    return rows
 
 
 # --- Points ------------------------------------------------------------------

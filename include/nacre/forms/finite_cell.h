@@ -191,8 +191,7 @@ namespace Nacre
       samples_.assign(samples.size(), 0.);
       for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int v = 0; v < 3; ++v)
-          samples_[s] +=
-            samples[s].direction[v] * strains[samples[s].point][v];
+          samples_[s] += samples[s].direction[v] * strains[samples[s].point][v];
     }
 
     /** n and m at the points, and n at the tying points. */

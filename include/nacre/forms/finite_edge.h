@@ -120,16 +120,14 @@ namespace Nacre
             cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
           const auto &t0 = edge.frame(0, q).t0;
           const auto  t1 = edge.sigma(1, q) * edge.frame(1, q).t0;
-          initial_angle_ =
-            std::atan2(cross_product_3d(t0, t1) * d0, t0 * t1);
+          initial_angle_ = std::atan2(cross_product_3d(t0, t1) * d0, t0 * t1);
         }
       else
         turn_prescribed_normal(edge, q, rotation);
       jump_ = angle(t, normal_plus(), d) - initial_angle_;
       mean_ = 0.;
       for (unsigned int s = 0; s < n_sides_; ++s)
-        mean_ +=
-          sides_[s].mean_factor * sides_[s].lambda * sides_[s].moment;
+        mean_ += sides_[s].mean_factor * sides_[s].lambda * sides_[s].moment;
     }
 
     const Side &
@@ -229,25 +227,25 @@ namespace Nacre
     moment_gradient(const unsigned int s) const
     {
       const Side &side = sides_[s];
-      return {{(side.lambda * (side.Y * side.tangent) / side.length) *
-                 side.normal,
-               (side.lambda * side.moment) * side.conormal +
-                 (side.lambda * (side.Y * side.conormal)) * side.normal,
-               -side.lambda * side.normal}};
+      return {
+        {(side.lambda * (side.Y * side.tangent) / side.length) * side.normal,
+         (side.lambda * side.moment) * side.conormal +
+           (side.lambda * (side.Y * side.conormal)) * side.normal,
+         -side.lambda * side.normal}};
     }
 
     /** Add the internal force of each node of the side @p s. */
     void
     add_force(const unsigned int s, NodeVectors<Number> &force) const
     {
-      const auto   &rows   = sides_[s].rows;
-      const auto    jump   = jump_gradient(s);
-      const auto    moment = moment_gradient(s);
-      const Number  f      = rotation_force();
-      const Number  g      = moment_force(s);
-      const Vector  G_e    = f * jump[0] + g * moment[0];
-      const Vector  G_n    = f * jump[1] + g * moment[1];
-      const Vector  G_y    = g * moment[2];
+      const auto  &rows   = sides_[s].rows;
+      const auto   jump   = jump_gradient(s);
+      const auto   moment = moment_gradient(s);
+      const Number f      = rotation_force();
+      const Number g      = moment_force(s);
+      const Vector G_e    = f * jump[0] + g * moment[0];
+      const Vector G_n    = f * jump[1] + g * moment[1];
+      const Vector G_y    = g * moment[2];
       for (unsigned int a = 0; a < force.size(); ++a)
         force[a] += rows[0][a] * G_e + rows[1][a] * G_n + rows[2][a] * G_y;
     }
@@ -329,10 +327,7 @@ namespace Nacre
             H_nu[0] * ddN[0] + H_nu[1] * ddN[1] + 2. * H_nu[2] * ddN[2];
           side.Y += side.rows[2][a] * u[a];
         }
-      deform(side,
-             frame,
-             displacement_gradient(shapes, q, u),
-             sigma);
+      deform(side, frame, displacement_gradient(shapes, q, u), sigma);
       const std::array<Number, 2> nu_con = {
         {side.conormal * side.deformed.a_con[0],
          side.conormal * side.deformed.a_con[1]}};
@@ -354,7 +349,7 @@ namespace Nacre
     {
       side.deformed  = make_surface_frame<Number>(frame.a_cov[0] + du[0],
                                                  frame.a_cov[1] + du[1],
-                                                  {});
+                                                 {});
       const Vector e = side.tau[0] * side.deformed.a_cov[0] +
                        side.tau[1] * side.deformed.a_cov[1];
       using std::sqrt;
@@ -484,8 +479,8 @@ namespace Nacre
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
     HingeFluxes         fluxes_;
-    Number              jump_ = 0.;
-    Number              mean_ = 0.;
+    Number              jump_          = 0.;
+    Number              mean_          = 0.;
     double              initial_angle_ = 0.;
 
     Tensor<1, spacedim> prescribed_tangent_;

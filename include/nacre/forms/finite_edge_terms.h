@@ -37,12 +37,12 @@ namespace Nacre
 
     /** Kinematics::add_rotation_step_terms(), rotations [end][q]. */
     void
-    add_step(const ShellEdgeValues &edge,
-             const double           penalty,
-             const std::array<const std::vector<PrescribedRotation> *, 2>
-                                                         &rotations,
-             const std::array<const Vector<double> *, 2> &u,
-             LocalTerms                                  &terms);
+    add_step(
+      const ShellEdgeValues                                        &edge,
+      const double                                                  penalty,
+      const std::array<const std::vector<PrescribedRotation> *, 2> &rotations,
+      const std::array<const Vector<double> *, 2>                  &u,
+      LocalTerms                                                   &terms);
 
     /** |theta| (rad) at the point @p q of a boundary edge. */
     double
