@@ -3,6 +3,7 @@
 
 #include <nacre/forms/averaged_normal_kinematics.h>
 #include <nacre/forms/corotational_kinematics.h>
+#include <nacre/forms/finite_kinematics.h>
 
 #include <tuple>
 
@@ -137,6 +138,17 @@ namespace Nacre
                                                       section,
                                                       options.membrane_strain,
                                                       options.tangent);
+    if (options.model == KinematicsModel::finite)
+      {
+        AssertThrow(options.tangent != TangentType::frozen,
+                    ExcMessage("Discretization/Tangent: 'frozen' is of the "
+                               "co-rotational form; 'Kinematics = finite' has "
+                               "the exact one only: choose 'consistent'."));
+        return std::make_unique<FiniteKinematics>(discretization,
+                                                  section,
+                                                  options.membrane_strain,
+                                                  options.tangent);
+      }
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

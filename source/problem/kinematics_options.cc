@@ -29,7 +29,8 @@ namespace Nacre
   {
     static const Selection<KinematicsModel> table = {
       {KinematicsModel::linear, "linear"},
-      {KinematicsModel::corotational, "corotational"}};
+      {KinematicsModel::corotational, "corotational"},
+      {KinematicsModel::finite, "finite"}};
     return table;
   }
 

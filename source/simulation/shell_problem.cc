@@ -51,7 +51,9 @@ namespace Nacre
     add_parameter("Kinematics",
                   kinematics_.model,
                   "linear: small displacements; corotational: large rotations "
-                  "with small strains, in frames that turn with the material.");
+                  "with small strains, in frames that turn with the material; "
+                  "finite: exact rotations and Green strains of any size, one "
+                  "energy with its exact gradient and symmetric derivative.");
     add_parameter("Tangent",
                   kinematics_.tangent,
                   "For co-rotational kinematics: symmetric, the symmetric part "
@@ -160,10 +162,11 @@ namespace Nacre
     const KinematicsOptions &options = problem.model.kinematics;
     const bool linear_kinematics = (options.model == KinematicsModel::linear);
     AssertThrow(linear_kinematics || options.edge_form == EdgeForm::hinge,
-                ExcMessage("Discretization/Edge form: co-rotational kinematics "
-                           "has the hinge form only; found '" +
+                ExcMessage("Discretization/Edge form: co-rotational and finite "
+                           "kinematics have the hinge form only; found '" +
                            name_of(options.edge_form) + "'."));
-    AssertThrow(options.tangent != TangentType::consistent,
+    AssertThrow(options.tangent != TangentType::consistent ||
+                  options.model != KinematicsModel::corotational,
                 ExcMessage("Discretization/Tangent: 'consistent', the "
                            "derivative itself, is an unsymmetric matrix, and "
                            "the solvers are for symmetric ones; choose "

@@ -145,14 +145,21 @@ test_free_shells()
       if (element.type != ElementType::triangle)
         mesh.refined = {0};
       const auto discretization = make_discretization(mesh, element);
-      check_free(case_name(element, strain) + "corotational",
-                 *discretization,
-                 ShellOperator(*discretization,
-                               parameters.section,
-                               parameters.conditions,
-                               parameters.loads,
-                               corotational(strain),
-                               10.));
+      for (const auto model :
+           {KinematicsModel::corotational, KinematicsModel::finite})
+        {
+          KinematicsOptions options = corotational(strain);
+          options.model             = model;
+          check_free(case_name(element, strain) +
+                       kinematics_model_names()[static_cast<int>(model)],
+                     *discretization,
+                     ShellOperator(*discretization,
+                                   parameters.section,
+                                   parameters.conditions,
+                                   parameters.loads,
+                                   options,
+                                   10.));
+        }
     }
 }
 
@@ -243,6 +250,7 @@ main(int argc, char *argv[])
   test_free_shells();
   test_prescribed_rotation(KinematicsModel::corotational);
   test_prescribed_rotation(KinematicsModel::linear);
+  test_prescribed_rotation(KinematicsModel::finite);
   test_following_pressure();
   return n_failures > 0;
 }

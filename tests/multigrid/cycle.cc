@@ -159,10 +159,11 @@ test(const std::string         &name,
 }
 
 void
-test_corotational(const Element     &element,
-                  const unsigned int max_iterations,
-                  const std::string &text          = roof,
-                  const unsigned int n_refinements = 3)
+test_large_rotations(const KinematicsModel model,
+                     const Element        &element,
+                     const unsigned int    max_iterations,
+                     const std::string    &text          = roof,
+                     const unsigned int    n_refinements = 3)
 {
   Case       shell(text);
   const auto discretization = shell.discretize(element, n_refinements);
@@ -170,10 +171,10 @@ test_corotational(const Element     &element,
   options.membrane_strain   = default_membrane_strain(element.type);
   const System linear(shell.model, *discretization);
   const auto   u  = some_displacement(*discretization, linear, 0.5);
-  options.model   = KinematicsModel::corotational;
+  options.model   = model;
   options.tangent = TangentType::symmetric;
   const System system(shell.model, *discretization, &u);
-  check_solution("co-rotational, " + Tests::label(element),
+  check_solution(name_of(model) + ", " + Tests::label(element),
                  shell.model,
                  *discretization,
                  system,
@@ -226,9 +227,11 @@ main(int argc, char **argv)
   test("hanging nodes", roof, {lagrange, 2}, 3, 16, {corner, corner});
   test("hanging nodes", roof, {lagrange, 3}, 2, 16, {corner, corner});
   test("hanging nodes", roof, Tests::serendipity, 3, 16, {corner, corner});
-  test_corotational({lagrange, 2}, 12);
-  test_corotational({lagrange, 3}, 12);
-  test_corotational(Tests::triangle, 15);
+  constexpr auto corotational = KinematicsModel::corotational;
+  test_large_rotations(corotational, {lagrange, 2}, 12);
+  test_large_rotations(corotational, {lagrange, 3}, 12);
+  test_large_rotations(corotational, Tests::triangle, 15);
+  test_large_rotations(KinematicsModel::finite, {lagrange, 2}, 12);
   const std::string fine_roof = subdivided(roof, "12, 12");
   test("one mesh, roof", fine_roof, {lagrange, 3}, 0, 12);
   test("one mesh, roof", fine_roof, {lagrange, 4}, 0, 12);
@@ -237,6 +240,6 @@ main(int argc, char **argv)
        {lagrange, 3},
        0,
        14);
-  test_corotational({lagrange, 3}, 12, fine_roof, 0);
+  test_large_rotations(corotational, {lagrange, 3}, 12, fine_roof, 0);
   test_indefinite();
 }

@@ -51,7 +51,9 @@ namespace Nacre
     /** Small displacements. */
     linear,
     /** Small strains in frames that turn with the material. */
-    corotational
+    corotational,
+    /** Green strains: rotations and strains of any size. */
+    finite
   };
 
   const Selection<KinematicsModel> &selection(KinematicsModel);

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_finite_cell_h
+#define nacre_forms_finite_cell_h
+
+#include <nacre/forms/corotational_cell.h>
+#include <nacre/forms/section_blocks.h>
+#include <nacre/mechanics/green_strain.h>
+
+namespace Nacre
+{
+  /**
+   * Strains, resultants and internal forces of a cell with exact finite
+   * rotations, at the points of one rule:
+   *
+   *   W = sum_q w_q (1/2 E : n + 1/2 kappa : m),
+   *
+   * E the Green strain (GreenStrain), sampled at the tying points and
+   * interpolated to the points q, and kappa the exact change of curvature.
+   * The forces are the exact gradient of W.
+   *
+   * Templated on the scalar, so that tests can take complex steps.
+   */
+  template <typename Number>
+  class FiniteCell
+  {
+  public:
+    using Vector = Tensor<1, spacedim, Number>;
+
+    /**
+     * @param sections at the points, area and weight included
+     * @param bends whether these points have bending energy
+     */
+    void
+    reinit(const ShellCellValues            &values,
+           const std::vector<SectionBlocks> &sections,
+           const NodeVectors<Number>        &u,
+           const bool                        bends = true)
+    {
+      bends_ = bends;
+      sample_membrane_strains(values, u);
+      membrane_strains_.resize(values.n_points());
+      bending_strains_.assign(values.n_points(), Voigt<Number>());
+      deformed_.resize(bends ? values.n_points() : 0);
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        {
+          for (unsigned int v = 0; v < 3; ++v)
+            {
+              membrane_strains_[q][v] = 0.;
+              for (const auto &[s, weight] : values.tying().weights(q, v))
+                membrane_strains_[q][v] += weight * samples_[s];
+            }
+          if (!bends)
+            continue;
+          deformed_[q] = deformed_frame(values.frame(q), values.shapes(), q, u);
+          bending_strains_[q] =
+            CorotationalStrain::bending(values.frame(q), deformed_[q]);
+        }
+      set_resultants(values, sections);
+    }
+
+    /**
+     * Take the means over a step from @p start to @p end: of strains and
+     * resultants, and StepDifferences' frames. The forces then do the work
+     * W(end) - W(start) on the step's displacement: E is quadratic in it, so
+     * that its difference is dE at the mean, and Delta(kappa) is that of
+     * StepDifferences::mean_frame().
+     */
+    void
+    take_means(const ShellCellValues            &values,
+               const std::vector<SectionBlocks> &sections,
+               const FiniteCell<Number>         &start,
+               const FiniteCell<Number>         &end)
+    {
+      bends_            = start.bends_;
+      tangents_         = start.tangents_;
+      membrane_strains_ = start.membrane_strains_;
+      bending_strains_  = start.bending_strains_;
+      deformed_.resize(start.deformed_.size());
+      for (unsigned int k = 0; k < tangents_.size(); ++k)
+        for (unsigned int alpha = 0; alpha < 2; ++alpha)
+          tangents_[k][alpha] =
+            0.5 * (start.tangents_[k][alpha] + end.tangents_[k][alpha]);
+      for (unsigned int q = 0; q < deformed_.size(); ++q)
+        deformed_[q] =
+          StepDifferences::mean_frame(start.deformed_[q], end.deformed_[q]);
+      for (unsigned int q = 0; q < membrane_strains_.size(); ++q)
+        {
+          membrane_strains_[q] =
+            0.5 * (start.membrane_strains_[q] + end.membrane_strains_[q]);
+          bending_strains_[q] =
+            0.5 * (start.bending_strains_[q] + end.bending_strains_[q]);
+        }
+      set_resultants(values, sections);
+    }
+
+    /** 1/2 sum of E : n (force times length). */
+    Number
+    membrane_energy() const
+    {
+      Number sum = 0.;
+      for (unsigned int q = 0; q < forces_.size(); ++q)
+        sum += 0.5 * (membrane_strains_[q] * forces_[q]);
+      return sum;
+    }
+
+    /** 1/2 sum of kappa : m (force times length). */
+    Number
+    bending_energy() const
+    {
+      Number sum = 0.;
+      for (unsigned int q = 0; q < moments_.size(); ++q)
+        sum += 0.5 * (bending_strains_[q] * moments_[q]);
+      return sum;
+    }
+
+    /** Add the internal force of each node (force). */
+    void
+    add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
+    {
+      for (unsigned int k = 0; k < tangents_.size(); ++k)
+        {
+          // n^ab phi,a . v,b
+          const auto  &n   = tying_forces_[k];
+          const auto  &phi = tangents_[k];
+          const Vector g_1 = n[0] * phi[0] + n[2] * phi[1];
+          const Vector g_2 = n[1] * phi[1] + n[2] * phi[0];
+          for (unsigned int a = 0; a < force.size(); ++a)
+            {
+              const auto &dN = values.tying_shapes().gradient(k, a);
+              force[a] += dN[0] * g_1 + dN[1] * g_2;
+            }
+        }
+      for (unsigned int q = 0; q < deformed_.size(); ++q)
+        for (unsigned int a = 0; a < force.size(); ++a)
+          {
+            const Voigt<Number> strain = ShellStrain::bending_of_shape_function(
+              deformed_[q],
+              values.shapes().gradient(q, a),
+              values.shapes().hessian(q, a));
+            force[a] += (strain * moments_[q]) * deformed_[q].t0;
+          }
+    }
+
+    /** phi,1 and phi,2 at the tying point @p k. */
+    const std::array<Vector, 2> &
+    tangents(const unsigned int k) const
+    {
+      return tangents_[k];
+    }
+
+    /** Work conjugates of E at the tying point @p k, Voigt. */
+    const Voigt<Number> &
+    tying_force(const unsigned int k) const
+    {
+      return tying_forces_[k];
+    }
+
+    /** The deformed frame at the point @p q. */
+    const SurfaceFrame<Number> &
+    deformed(const unsigned int q) const
+    {
+      return deformed_[q];
+    }
+
+    /** m^ab times area and weight at the point @p q, Voigt. */
+    const Voigt<Number> &
+    moment(const unsigned int q) const
+    {
+      return moments_[q];
+    }
+
+  private:
+    void
+    sample_membrane_strains(const ShellCellValues     &values,
+                            const NodeVectors<Number> &u)
+    {
+      const auto &tying = values.tying();
+      tangents_.resize(tying.points().size());
+      std::vector<Voigt<Number>> strains(tying.points().size());
+      for (unsigned int k = 0; k < strains.size(); ++k)
+        {
+          const auto &frame = values.tying_frame(k);
+          const auto  du = displacement_gradient(values.tying_shapes(), k, u);
+          strains[k]     = GreenStrain::membrane(frame, du);
+          for (unsigned int alpha = 0; alpha < 2; ++alpha)
+            tangents_[k][alpha] = frame.a_cov[alpha] + du[alpha];
+        }
+      const auto &samples = tying.samples();
+      samples_.assign(samples.size(), 0.);
+      for (unsigned int s = 0; s < samples.size(); ++s)
+        for (unsigned int v = 0; v < 3; ++v)
+          samples_[s] += samples[s].direction[v] * strains[samples[s].point][v];
+    }
+
+    /** n and m at the points, and n at the tying points. */
+    void
+    set_resultants(const ShellCellValues            &values,
+                   const std::vector<SectionBlocks> &sections)
+    {
+      const auto &tying = values.tying();
+      forces_.resize(membrane_strains_.size());
+      moments_.assign(membrane_strains_.size(), Voigt<Number>());
+      std::vector<Number> sample_forces(tying.samples().size(), Number(0.));
+      for (unsigned int q = 0; q < forces_.size(); ++q)
+        {
+          forces_[q] =
+            sections[q].force(membrane_strains_[q], bending_strains_[q]);
+          if (bends_)
+            moments_[q] =
+              sections[q].moment(membrane_strains_[q], bending_strains_[q]);
+          for (unsigned int v = 0; v < 3; ++v)
+            for (const auto &[s, weight] : tying.weights(q, v))
+              sample_forces[s] += weight * forces_[q][v];
+        }
+      tying_forces_.assign(tying.points().size(), Voigt<Number>());
+      for (unsigned int s = 0; s < sample_forces.size(); ++s)
+        for (unsigned int v = 0; v < 3; ++v)
+          tying_forces_[tying.samples()[s].point][v] +=
+            tying.samples()[s].direction[v] * sample_forces[s];
+    }
+
+    bool bends_ = true;
+    /** By tying point. */
+    std::vector<std::array<Vector, 2>> tangents_;
+    std::vector<Voigt<Number>>         tying_forces_;
+    /** By sample. */
+    std::vector<Number> samples_;
+    /** By point. */
+    std::vector<SurfaceFrame<Number>> deformed_;
+    std::vector<Voigt<Number>>        membrane_strains_;
+    std::vector<Voigt<Number>>        bending_strains_;
+    std::vector<Voigt<Number>>        forces_;
+    std::vector<Voigt<Number>>        moments_;
+  };
+} // namespace Nacre
+
+#endif

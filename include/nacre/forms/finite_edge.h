@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_finite_edge_h
+#define nacre_forms_finite_edge_h
+
+#include <nacre/forms/corotational_edge.h>
+#include <nacre/forms/finite_cell.h>
+
+#include <type_traits>
+
+namespace Nacre
+{
+  /**
+   * The angle (rad) in (-pi, pi] whose sine and cosine are @p y and @p x times
+   * a positive factor: atan2, for complex steps as well.
+   */
+  template <typename Number>
+  Number
+  angle_of(const Number &y, const Number &x)
+  {
+    using std::atan;
+    using std::real;
+    if constexpr (std::is_same<Number, double>::value)
+      return std::atan2(y, x);
+    else if (std::abs(real(x)) > std::abs(real(y)))
+      return atan(y / x) +
+             (real(x) > 0. ? 0. : std::copysign(numbers::PI, real(y)));
+    else
+      return std::copysign(numbers::PI_2, real(y)) - atan(x / y);
+  }
+
+  /**
+   * The energy of an edge with exact finite rotations, at one point:
+   *
+   *   W = 1/2 eta^e D theta^2 - {lambda m_nn} theta,
+   *
+   * times length element and weight, doc/formulation.md (N.21). With the unit
+   * tangent d of the deformed edge, the normals t^s of the sides (sigma
+   * included, so that both turn alike) and the deformed conormals nu = t x d:
+   *
+   * - theta = alpha - alpha0 is the change of the angle
+   *   alpha = atan2((t^- x t^+) . d, t^- . t^+) between the normals. Each of
+   *   both angles is in (-pi, pi], which is the range of a crease whose cells
+   *   don't penetrate each other: from a fold of the one side onto itself to
+   *   that of the other. So theta is in (-2 pi, 2 pi), and jumps only where the
+   *   surface passes through itself.
+   * - m_nn = -(Y . t - Y0 . t0), Y = h^ab phi,ab, h = H_m(nu0, nu0), the moment
+   *   nu0 . m . nu0.
+   * - lambda = (j / j0) / |e|, e = dx/ds: the stretch across the edge, which is
+   *   nu . phi,a nu0^a. The rotation's work conjugate is lambda m_nn.
+   *
+   * Prescribed rotation: t^+ is the normal t_bar of prescribed_frame(), turned
+   * with the edge by the smallest rotation, alpha0 = 0 (the angle prescribed is
+   * in t_bar), the mean is that of the one side, and the penalty twice as
+   * large.
+   *
+   * The variations are in terms of v_e = tau^g v,g (along the edge, per length
+   * of the undeformed one), v_n = nu^g v,g (along nu, per deformed length) and
+   * y = h^ab v,ab of each side; a^g (t . v,g) = d (t . v_e) / |e| +
+   * nu (t . v_n).
+   */
+  template <typename Number>
+  class FiniteEdgePoint
+  {
+  public:
+    using Vector = Tensor<1, spacedim, Number>;
+    using Matrix = Tensor<2, spacedim, Number>;
+
+    struct Side
+    {
+      /** Rows of v_e, v_n and y: scalars that multiply the nodes' v. */
+      std::array<std::vector<Number>, 3> rows;
+      /** Components of the undeformed unit tangent d0. */
+      std::array<double, 2> tau;
+      /** Y0 . t0 with sigma (force). */
+      double initial_moment;
+      /** Factor of the angle of t in alpha, and of lambda m_nn in the mean. */
+      double jump_factor;
+      double mean_factor;
+
+      SurfaceFrame<Number> deformed;
+      /** sigma t, the deformed conormal nu, and the unit tangent d. */
+      Vector normal;
+      Vector conormal;
+      Vector tangent;
+      /** |e| and lambda (1). */
+      Number length;
+      Number lambda;
+      /** m_nn with sigma (force). */
+      Number moment;
+      Vector Y;
+    };
+
+    /**
+     * Everything at the point @p q, for the displacements @p u of the nodes of
+     * each side.
+     * @param rotation not used for interior edges
+     */
+    void
+    reinit(const ShellEdgeValues                    &edge,
+           const unsigned int                        q,
+           const SectionLaw                         &section,
+           const double                              penalty,
+           const PrescribedRotation                 &rotation,
+           const std::array<NodeVectors<Number>, 2> &u)
+    {
+      n_sides_         = edge.n_sides();
+      double stiffness = 0.;
+      for (unsigned int s = 0; s < n_sides_; ++s)
+        stiffness += reinit_side(edge, s, q, section, u[s]);
+      fluxes_ = hinge_fluxes(edge, q, stiffness, penalty);
+
+      const Vector &t = sides_[0].normal;
+      const Vector &d = sides_[0].tangent;
+      initial_angle_  = 0.;
+      if (n_sides_ == 2)
+        {
+          const auto d0 =
+            cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
+          const auto &t0 = edge.frame(0, q).t0;
+          const auto  t1 = edge.sigma(1, q) * edge.frame(1, q).t0;
+          initial_angle_ = std::atan2(cross_product_3d(t0, t1) * d0, t0 * t1);
+        }
+      else
+        turn_prescribed_normal(edge, q, rotation);
+      jump_ = angle(t, normal_plus(), d) - initial_angle_;
+      mean_ = 0.;
+      for (unsigned int s = 0; s < n_sides_; ++s)
+        mean_ += sides_[s].mean_factor * sides_[s].lambda * sides_[s].moment;
+    }
+
+    const Side &
+    side(const unsigned int s) const
+    {
+      return sides_[s];
+    }
+
+    unsigned int
+    n_sides() const
+    {
+      return n_sides_;
+    }
+
+    /** theta (rad). */
+    const Number &
+    jump() const
+    {
+      return jump_;
+    }
+
+    /** {lambda m_nn} (force). */
+    const Number &
+    mean() const
+    {
+      return mean_;
+    }
+
+    /** alpha0 (rad). */
+    double
+    initial_angle() const
+    {
+      return initial_angle_;
+    }
+
+    /** t^+, or t_bar of a prescribed rotation. */
+    const Vector &
+    normal_plus() const
+    {
+      return n_sides_ == 2 ? sides_[1].normal : prescribed_normal_;
+    }
+
+    /**
+     * Take the means of theta and {lambda m_nn} of both ends of a step instead,
+     * and the forces with them; the frames stay.
+     */
+    void
+    take_means(const FiniteEdgePoint<Number> &start,
+               const FiniteEdgePoint<Number> &end)
+    {
+      jump_ = 0.5 * (start.jump_ + end.jump_);
+      mean_ = 0.5 * (start.mean_ + end.mean_);
+    }
+
+    const HingeFluxes &
+    fluxes() const
+    {
+      return fluxes_;
+    }
+
+    /** W (force times length). */
+    Number
+    energy() const
+    {
+      return 0.5 * fluxes_.penalty * jump_ * jump_ +
+             fluxes_.consistency * mean_ * jump_;
+    }
+
+    /** Work conjugate of theta, weight included (force times length). */
+    Number
+    rotation_force() const
+    {
+      return fluxes_.penalty * jump_ + fluxes_.consistency * mean_;
+    }
+
+    /** Work conjugate of lambda m_nn of the side @p s. */
+    Number
+    moment_force(const unsigned int s) const
+    {
+      return sides_[s].mean_factor * fluxes_.consistency * jump_;
+    }
+
+    /** How theta changes with v_e, v_n and y of the side @p s. */
+    std::array<Vector, 3>
+    jump_gradient(const unsigned int s) const
+    {
+      const Side           &side = sides_[s];
+      std::array<Vector, 3> gradient;
+      gradient[1] = side.jump_factor * side.normal;
+      if (n_sides_ == 1)
+        gradient[0] = spin_ / side.length;
+      return gradient;
+    }
+
+    /** How lambda m_nn changes with v_e, v_n and y of the side @p s. */
+    std::array<Vector, 3>
+    moment_gradient(const unsigned int s) const
+    {
+      const Side &side = sides_[s];
+      return {
+        {(side.lambda * (side.Y * side.tangent) / side.length) * side.normal,
+         (side.lambda * side.moment) * side.conormal +
+           (side.lambda * (side.Y * side.conormal)) * side.normal,
+         -side.lambda * side.normal}};
+    }
+
+    /** Add the internal force of each node of the side @p s. */
+    void
+    add_force(const unsigned int s, NodeVectors<Number> &force) const
+    {
+      const auto  &rows   = sides_[s].rows;
+      const auto   jump   = jump_gradient(s);
+      const auto   moment = moment_gradient(s);
+      const Number f      = rotation_force();
+      const Number g      = moment_force(s);
+      const Vector G_e    = f * jump[0] + g * moment[0];
+      const Vector G_n    = f * jump[1] + g * moment[1];
+      const Vector G_y    = g * moment[2];
+      for (unsigned int a = 0; a < force.size(); ++a)
+        force[a] += rows[0][a] * G_e + rows[1][a] * G_n + rows[2][a] * G_y;
+    }
+
+    /** Second derivatives by v_e, v_n and y: [k][l], (y, y) is zero. */
+    using Hessian = std::array<std::array<Matrix, 3>, 3>;
+
+    /**
+     * rotation_force() d2(theta) + moment_force() d2(lambda m_nn) of the side
+     * @p s, less what the antisymmetric parts of both sides' d2(theta) have in
+     * common: they cancel.
+     *
+     * An edge that has not yet reached its prescribed rotation, at the start of
+     * a step, stands under the penalty's moment, many times the shell's; with
+     * its stiffness Newton's method loses its way. @p limits_gap takes a
+     * moment of the penalty of at most {lambda m_nn}, which changes nothing
+     * near the solution.
+     */
+    Hessian
+    hessian(const unsigned int s, const bool limits_gap = false) const
+    {
+      Hessian K;
+      Number  force = rotation_force();
+      if (limits_gap && n_sides_ == 1)
+        {
+          using std::abs;
+          const double shell   = abs(fluxes_.consistency * mean_);
+          const double penalty = abs(fluxes_.penalty * jump_);
+          if (penalty > shell)
+            force += (shell / penalty - 1.) * fluxes_.penalty * jump_;
+        }
+      add_rotation_hessian(s, force, K);
+      add_moment_hessian(s, K);
+      for (unsigned int k = 0; k < 2; ++k)
+        {
+          K[k][k] += transpose(K[k][k]);
+          K[2][k] = transpose(K[k][2]);
+        }
+      K[1][0] = transpose(K[0][1]);
+      return K;
+    }
+
+  private:
+    /** Returns the share of the side in D. */
+    double
+    reinit_side(const ShellEdgeValues     &edge,
+                const unsigned int         s,
+                const unsigned int         q,
+                const SectionLaw          &section,
+                const NodeVectors<Number> &u)
+    {
+      Side         &side   = sides_[s];
+      const auto   &frame  = edge.frame(s, q);
+      const auto   &shapes = edge.shapes(s);
+      const double  sigma  = edge.sigma(s, q);
+      const auto    dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
+      const Voigt<> H_nu =
+        SectionBlocks(section, frame, edge.point(q, s)).D * dyad;
+      const auto d0 =
+        cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
+      side.tau         = {{d0 * frame.a_con[0], d0 * frame.a_con[1]}};
+      side.jump_factor = s == 0 ? -1. : 1.; // plus - minus
+      side.mean_factor = n_sides_ == 2 ? 0.5 : 1.;
+
+      side.Y = Vector();
+      for (unsigned int v = 0; v < 3; ++v)
+        side.Y += (v < 2 ? 1. : 2.) * H_nu[v] * frame.a_cov_derivatives[v];
+      using std::real;
+      Tensor<1, spacedim> Y0;
+      for (unsigned int c = 0; c < spacedim; ++c)
+        Y0[c] = real(side.Y[c]);
+      side.initial_moment = sigma * (Y0 * frame.t0);
+      for (auto &row : side.rows)
+        row.resize(u.size());
+      for (unsigned int a = 0; a < u.size(); ++a)
+        {
+          const auto &ddN = shapes.hessian(q, a);
+          side.rows[2][a] =
+            H_nu[0] * ddN[0] + H_nu[1] * ddN[1] + 2. * H_nu[2] * ddN[2];
+          side.Y += side.rows[2][a] * u[a];
+        }
+      deform(side, frame, displacement_gradient(shapes, q, u), sigma);
+      const std::array<Number, 2> nu_con = {
+        {side.conormal * side.deformed.a_con[0],
+         side.conormal * side.deformed.a_con[1]}};
+      for (unsigned int a = 0; a < u.size(); ++a)
+        {
+          const auto &dN  = shapes.gradient(q, a);
+          side.rows[0][a] = side.tau[0] * dN[0] + side.tau[1] * dN[1];
+          side.rows[1][a] = nu_con[0] * dN[0] + nu_con[1] * dN[1];
+        }
+      return side.mean_factor * (dyad * H_nu);
+    }
+
+    /** The deformed frame of the side, lambda and m_nn. */
+    static void
+    deform(Side                        &side,
+           const SurfaceFrame<>        &frame,
+           const std::array<Vector, 2> &du,
+           const double                 sigma)
+    {
+      side.deformed  = make_surface_frame<Number>(frame.a_cov[0] + du[0],
+                                                 frame.a_cov[1] + du[1],
+                                                 {});
+      const Vector e = side.tau[0] * side.deformed.a_cov[0] +
+                       side.tau[1] * side.deformed.a_cov[1];
+      using std::sqrt;
+      side.length   = sqrt(Number(e * e));
+      side.tangent  = e / side.length;
+      side.normal   = sigma * side.deformed.t0;
+      side.conormal = cross_product_3d(side.normal, side.tangent);
+      side.lambda   = side.deformed.j0 / (frame.j0 * side.length);
+      side.moment   = side.initial_moment - side.Y * side.normal;
+    }
+
+    /** From @p t to @p t_plus about @p d. */
+    static Number
+    angle(const Vector &t, const Vector &t_plus, const Vector &d)
+    {
+      return angle_of<Number>(cross_product_3d(t, t_plus) * d, t * t_plus);
+    }
+
+    /**
+     * t_bar, and its spin about d: d . omega = spin . dd under the smallest
+     * rotation that takes the prescribed direction to d.
+     */
+    void
+    turn_prescribed_normal(const ShellEdgeValues    &edge,
+                           const unsigned int        q,
+                           const PrescribedRotation &rotation)
+    {
+      const auto   &nu  = edge.conormal(0, q);
+      const auto   &t0  = edge.frame(0, q).t0;
+      const auto    p_t = prescribed_frame(nu, t0, rotation).second;
+      const auto    c   = rotation.turn * cross_product_3d(nu, t0);
+      const Vector &d   = sides_[0].tangent;
+      // Exactly opposite directions leave the axis open. An edge that has
+      // turned by 180 degrees in a symmetry plane did so about its conormal.
+      using std::real;
+      const bool is_opposite = !(real(Number(1. + d * c)) > 1e-14);
+      const auto axis        = rotation.turn * nu;
+      const auto turned      = [&](const Tensor<1, spacedim> &v) {
+        return is_opposite ? 2. * (axis * v) * axis - v : v;
+      };
+      prescribed_tangent_ = turned(c);
+      prescribed_normal_ =
+        EdgeRotation::smallest<Number>(prescribed_tangent_, d, turned(p_t));
+      spin_ = EdgeRotation::smallest_spin<Number>(prescribed_tangent_, d);
+    }
+
+    /**
+     * Half of the diagonal blocks and K[0][1] of @p force d2(theta).
+     * The angle of t has the variation t . v_n; its own second one is
+     * -(nu . w_e) (t . v_e) / |e|^2 - T(v) . w_n - T(w) . v_n, the first term
+     * of which is replaced by its symmetric part.
+     */
+    void
+    add_rotation_hessian(const unsigned int s,
+                         const Number      &force,
+                         Hessian           &K) const
+    {
+      const Side   &side   = sides_[s];
+      const Vector &t      = side.normal;
+      const Vector &nu     = side.conormal;
+      const Number  of_t   = side.jump_factor * force;
+      const Number  length = side.length;
+      K[0][0] -= (0.5 * of_t / (length * length)) * outer_product(t, nu);
+      K[0][1] -= (of_t / length) * outer_product(t, side.tangent);
+      K[1][1] -= of_t * outer_product(t, nu);
+      if (n_sides_ == 2)
+        return;
+      // spin . v_e / |e| of t_bar, spin = d x c / (1 + d . c), dd = P w_e / |e|
+      const Vector &d     = side.tangent;
+      const Vector  c     = prescribed_tangent_;
+      const Number  scale = 0.5 * force / (length * length);
+      for (unsigned int i = 0; i < spacedim; ++i)
+        {
+          Vector dd = -d[i] * d;
+          dd[i] += 1.;
+          const Vector d_spin =
+            (cross_product_3d(dd, c) - (c * dd) * spin_) / (1. + d * c);
+          for (unsigned int k = 0; k < spacedim; ++k)
+            K[0][0][k][i] += scale * (d_spin[k] - spin_[k] * d[i]);
+        }
+    }
+
+    /**
+     * Half of the diagonal blocks, K[0][1] and K[k][2] of moment_force()
+     * d2(lambda m), m = -(Y . t - Y0 . t0):
+     *
+     * dlambda = lambda nu . v_n,
+     * d2lambda = lambda ((t . v_n)(t . w_n) - (nu . v_e)(nu . w_e) / |e|^2
+     *            - ((nu . v_e)(d . w_n) + (nu . w_e)(d . v_n)) / |e|),
+     * dm = -t . y + Y . T(v),
+     * d2m = V(v) . T(w) + V(w) . T(v) + (Y . t) T(v) . T(w),
+     *
+     * V(v) = y - (Y . d) v_e / |e| - (Y . nu) v_n as in GreenStrain.
+     */
+    void
+    add_moment_hessian(const unsigned int s, Hessian &K) const
+    {
+      const Side   &side = sides_[s];
+      const Vector &t    = side.normal;
+      const Vector &nu   = side.conormal;
+      const Vector &d    = side.tangent;
+      const Number  r    = 1. / side.length;
+      const Number  g    = moment_force(s) * side.lambda;
+      const Number  gm   = g * side.moment;
+      const Number  Y_e  = (side.Y * d) * r;
+      const Number  Y_n  = side.Y * nu;
+      const Number  Y_t  = side.Y * t;
+      const Matrix  tt   = outer_product(t, t);
+      const Matrix  t_nu = outer_product(t, nu);
+      const Matrix  t_d  = outer_product(t, d);
+      // m d2lambda
+      K[0][0] -= (0.5 * gm * r * r) * outer_product(nu, nu);
+      K[0][1] -= (gm * r) * outer_product(nu, d);
+      K[1][1] += (0.5 * gm) * tt;
+      // dlambda dm + dm dlambda
+      K[0][1] += (g * Y_e) * t_nu;
+      K[1][1] += (g * Y_n) * t_nu;
+      K[1][2] -= g * outer_product(nu, t);
+      // d2m
+      K[0][0] += g * ((0.5 * Y_t * r * r) * tt - (Y_e * r) * t_d);
+      K[0][1] -= g * (Y_e * transpose(t_nu) + (Y_n * r) * t_d);
+      K[1][1] += g * ((0.5 * Y_t) * tt - Y_n * t_nu);
+      K[0][2] += (g * r) * t_d;
+      K[1][2] += g * t_nu;
+    }
+
+    unsigned int        n_sides_ = 0;
+    std::array<Side, 2> sides_;
+    HingeFluxes         fluxes_;
+    Number              jump_          = 0.;
+    Number              mean_          = 0.;
+    double              initial_angle_ = 0.;
+
+    Tensor<1, spacedim> prescribed_tangent_;
+    Vector              prescribed_normal_;
+    Vector              spin_;
+  };
+} // namespace Nacre
+
+#endif

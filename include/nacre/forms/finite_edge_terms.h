@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_forms_finite_edge_terms_h
+#define nacre_forms_finite_edge_terms_h
+
+#include <nacre/forms/finite_edge_step.h>
+
+namespace Nacre
+{
+  /**
+   * Energy, force and tangent of an edge with exact finite rotations, in
+   * numbers of the dofs: the chain from FiniteEdgePoint to the matrix,
+   *
+   *   K = sum_q X_q + X_q^T + sum over sides and kinds k, l of
+   *       R_k[a] K_kl R_l[b],
+   *
+   * X_q = dtheta (1/2 eta^e D dtheta - d{lambda m_nn}) of all dofs, R_k the
+   * scalar rows of v_e, v_n and y, and K_kl FiniteEdgePoint::hessian().
+   */
+  class FiniteEdgeTerms
+  {
+  public:
+    /** @param limits_gap of FiniteEdgePoint::hessian() */
+    FiniteEdgeTerms(const SectionLaw &section, const bool limits_gap);
+
+    /**
+     * Add the terms at the displacement @p u of the edge's dofs; zero if empty.
+     * @param rotation not used for interior edges
+     */
+    void
+    add(const ShellEdgeValues                 &edge,
+        const double                           penalty,
+        const std::vector<PrescribedRotation> &rotation,
+        const Vector<double>                  &u,
+        LocalTerms                            &terms);
+
+    /** Kinematics::add_rotation_step_terms(), rotations [end][q]. */
+    void
+    add_step(
+      const ShellEdgeValues                                        &edge,
+      const double                                                  penalty,
+      const std::array<const std::vector<PrescribedRotation> *, 2> &rotations,
+      const std::array<const Vector<double> *, 2>                  &u,
+      LocalTerms                                                   &terms);
+
+    /** |theta| (rad) at the point @p q of a boundary edge. */
+    double
+    rotation_gap(const ShellEdgeValues    &edge,
+                 const unsigned int        q,
+                 const PrescribedRotation &rotation,
+                 const Vector<double>     &u);
+
+    /**
+     * The load -int m t . dv/dnu ds0 of FollowingMoment, minus as a residual,
+     * and its derivative.
+     */
+    void
+    add_moment(const ShellEdgeValues     &edge,
+               const std::vector<double> &moment,
+               const Vector<double>      &u,
+               LocalTerms                &terms);
+
+  private:
+    /** Room for the rows of all points. */
+    void
+    reinit_rows(const ShellEdgeValues &edge);
+
+    /** The rows of the sides and of X at the point @p q of point_. */
+    void
+    fill_rows(const ShellEdgeValues &edge, const unsigned int q);
+
+    void
+    add_side_tangent(const ShellEdgeValues &edge,
+                     const unsigned int     side,
+                     LocalTerms            &terms);
+
+    void
+    add_jump_tangent(LocalTerms &terms);
+
+    /** The products of the rows of all points. */
+    void
+    add_tangent(const ShellEdgeValues &edge, LocalTerms &terms);
+
+    /** Add force_ to the residual of the side @p s. */
+    void
+    add_residual(const ShellEdgeValues &edge,
+                 const unsigned int     s,
+                 LocalTerms            &terms) const;
+
+    const SectionLaw                  &section_;
+    const bool                         limits_gap_;
+    FiniteEdgePoint<double>            point_;
+    std::array<NodeVectors<double>, 2> u_;
+    NodeVectors<double>                force_;
+    /** [end of the step]. */
+    std::array<FiniteEdgePoint<double>, 2>            ends_point_;
+    std::array<std::array<NodeVectors<double>, 2>, 2> ends_u_;
+    FiniteEdgeStep                                    step_;
+    /** [3 q + k][a]: R_k, and [3 q + k][c n + 3 b + d]: sum_l K_kl R_l. */
+    std::array<FullMatrix<double>, 2> side_rows_;
+    std::array<FullMatrix<double>, 2> side_derivative_rows_;
+    /** [q][i]: dtheta, and what it multiplies in X. */
+    FullMatrix<double> jump_rows_;
+    FullMatrix<double> trial_rows_;
+    FullMatrix<double> product_;
+  };
+} // namespace Nacre
+
+#endif

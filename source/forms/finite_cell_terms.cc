@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/simd.h>
+#include <nacre/forms/cell_stiffness.h>
+#include <nacre/forms/finite_cell_terms.h>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** Rows of a point in test_rows_ and trial_rows_. */
+    constexpr unsigned int n_rows = 8;
+
+    /** Displacements of the nodes; zero if @p u is empty. */
+    void
+    extract_nodes(const ShellCellValues &values,
+                  const Vector<double>  &u,
+                  NodeVectors<double>   &nodes)
+    {
+      nodes.assign(values.shapes().n_nodes(), Vector3());
+      if (u.size() != 0)
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            nodes[a][c] = u[values.dof(a, c)];
+    }
+
+    /** y += v x. */
+    NACRE_SIMD void
+    add_scaled(const unsigned int  n,
+               const double        v,
+               const double *const x,
+               double *__restrict const y)
+    {
+      for (unsigned int j = 0; j < n; ++j)
+        y[j] += v * x[j];
+    }
+
+    /** The three rows @p to += factor D times the three rows @p from. */
+    NACRE_SIMD void
+    add_stress_rows(const double *const D,
+                    const double        factor,
+                    const double *const from,
+                    const unsigned int  n,
+                    double *__restrict const to)
+    {
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          const double d_0 = factor * D[3 * v];
+          const double d_1 = factor * D[3 * v + 1];
+          const double d_2 = factor * D[3 * v + 2];
+          for (unsigned int i = 0; i < n; ++i)
+            to[v * n + i] +=
+              d_0 * from[i] + d_1 * from[n + i] + d_2 * from[2 * n + i];
+        }
+    }
+  } // namespace
+
+  FiniteCellTerms::CellPoints::CellPoints(const Discretization  &discretization,
+                                          const Quadrature<dim> &quadrature,
+                                          const bool             tied,
+                                          const bool             bends)
+    : values(discretization, quadrature, tied)
+    , bends(bends)
+  {}
+
+  FiniteCellTerms::FiniteCellTerms(const Discretization &discretization,
+                                   const SectionLaw     &section,
+                                   const MembraneStrain  membrane_strain)
+    : section_(section)
+    , full_points_(discretization,
+                   cell_quadrature(discretization.element(), membrane_strain),
+                   membrane_strain == MembraneStrain::tied,
+                   true)
+  {
+    if (blends_integration(discretization.element(), membrane_strain))
+      reduced_points_.emplace(discretization,
+                              discretization.element().reduced_quadrature(),
+                              false,
+                              false);
+  }
+
+  void
+  FiniteCellTerms::add(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                       const Vector<double>                              &u,
+                       LocalTerms                                        &terms)
+  {
+    extract_nodes(full_points_.values, u, u_);
+    add_terms(cell, false, terms);
+  }
+
+  void
+  FiniteCellTerms::add_step(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Vector<double>                              &u_start,
+    const Vector<double>                              &u_end,
+    LocalTerms                                        &terms)
+  {
+    extract_nodes(full_points_.values, u_start, ends_u_[0]);
+    extract_nodes(full_points_.values, u_end, ends_u_[1]);
+    add_terms(cell, true, terms);
+  }
+
+  void
+  FiniteCellTerms::evaluate(CellPoints  &points,
+                            const double share,
+                            const bool   in_step)
+  {
+    const auto &values = points.values;
+    points.sections.clear();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        points.sections.emplace_back(section_,
+                                     values.frame(q),
+                                     values.point(q),
+                                     values.JxW(q));
+        points.sections.back().A *= share;
+      }
+    if (!in_step)
+      {
+        points.cell.reinit(values, points.sections, u_, points.bends);
+        return;
+      }
+    for (unsigned int end = 0; end < 2; ++end)
+      points.ends[end].reinit(values,
+                              points.sections,
+                              ends_u_[end],
+                              points.bends);
+    points.cell.take_means(values,
+                           points.sections,
+                           points.ends[0],
+                           points.ends[1]);
+  }
+
+  void
+  FiniteCellTerms::add_terms(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const bool                                         in_step,
+    LocalTerms                                        &terms)
+  {
+    const auto &values = full_points_.values;
+    full_points_.values.reinit_frames(cell);
+    const double share = reduced_points_.has_value() ?
+                           full_integration_share(values, section_) :
+                           1.;
+    force_.assign(values.shapes().n_nodes(), Vector3());
+    const auto add_points = [&](CellPoints &points, const double factor) {
+      evaluate(points, factor, in_step);
+      points.cell.add_force(points.values, force_);
+      if (!in_step)
+        {
+          terms.energies.membrane += points.cell.membrane_energy();
+          terms.energies.bending += points.cell.bending_energy();
+        }
+      if (terms.wants_tangent)
+        add_tangent(points, terms);
+    };
+    add_points(full_points_, share);
+    if (share < 1.)
+      {
+        reduced_points_->values.reinit_frames(cell);
+        add_points(*reduced_points_, 1. - share);
+      }
+    for (unsigned int a = 0; a < force_.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[values.dof(a, c)] += force_[a][c];
+  }
+
+  void
+  FiniteCellTerms::add_tangent(const CellPoints &points, LocalTerms &terms)
+  {
+    const auto        &values = points.values;
+    const unsigned int n      = values.n_dofs();
+    test_rows_.reinit(n_rows * values.n_points(), n);
+    trial_rows_.reinit(n_rows * values.n_points(), n);
+    fill_membrane_rows(points);
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        if (points.bends)
+          fill_bending_rows(points, q);
+        fill_stress_rows(points, q);
+      }
+    add_products(points, terms);
+  }
+
+  void
+  FiniteCellTerms::fill_membrane_rows(const CellPoints &points)
+  {
+    const auto        &values  = points.values;
+    const auto        &shapes  = values.tying_shapes();
+    const auto        &samples = values.tying().samples();
+    const unsigned int n       = values.n_dofs();
+    sample_rows_.reinit(samples.size(), n, true);
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        // direction . dE(N e_c), dE = (A_1 N,1, A_2 N,2, A_1 N,2 + A_2 N,1)
+        const auto &[k, direction] = samples[s];
+        const auto   &A            = points.cell.tangents(k);
+        const Vector3 g_1          = direction[0] * A[0] + direction[2] * A[1];
+        const Vector3 g_2          = direction[2] * A[0] + direction[1] * A[1];
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          {
+            const auto &dN = shapes.gradient(k, a);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              sample_rows_(s, values.dof(a, c)) =
+                dN[0] * g_1[c] + dN[1] * g_2[c];
+          }
+      }
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const auto &[s, weight] : values.tying().weights(q, v))
+          add_scaled(n,
+                     weight,
+                     &sample_rows_(s, 0),
+                     &test_rows_(n_rows * q + v, 0));
+  }
+
+  void
+  FiniteCellTerms::fill_bending_rows(const CellPoints  &points,
+                                     const unsigned int q)
+  {
+    const auto        &values = points.values;
+    const auto        &frame  = points.cell.deformed(q);
+    const auto        &m      = points.cell.moment(q);
+    const auto        &t      = frame.t0;
+    const unsigned int n      = values.n_dofs();
+    double *const      test   = &test_rows_(n_rows * q, 0);
+    double *const      trial  = &trial_rows_(n_rows * q, 0);
+    double             m_b    = 0.;
+    for (unsigned int v = 0; v < 3; ++v)
+      m_b += (v < 2 ? 1. : 2.) * m[v] * (frame.a_cov_derivatives[v] * t);
+    for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+      {
+        const auto &dN = values.shapes().gradient(q, a);
+        const auto  kappa =
+          ShellStrain::bending_of_shape_function(frame,
+                                                 dN,
+                                                 values.shapes().hessian(q, a));
+        // V = m^ab (N,ab - Gamma^g_ab N,g) and half of m : b
+        const double  V         = -(m * kappa);
+        const Vector3 dN_con[2] = {frame.metric_con[0] * t * dN[0] +
+                                     frame.metric_con[2] * t * dN[1],
+                                   frame.metric_con[2] * t * dN[0] +
+                                     frame.metric_con[1] * t * dN[1]};
+        for (unsigned int c = 0; c < spacedim; ++c)
+          {
+            const unsigned int i = values.dof(a, c);
+            for (unsigned int v = 0; v < 3; ++v)
+              test[(3 + v) * n + i] = kappa[v] * t[c];
+            for (unsigned int g = 0; g < 2; ++g)
+              {
+                test[(6 + g) * n + i] = dN[g] * t[c];
+                trial[(6 + g) * n + i] =
+                  V * frame.a_con[g][c] + 0.5 * m_b * dN_con[g][c];
+              }
+          }
+      }
+  }
+
+  void
+  FiniteCellTerms::fill_stress_rows(const CellPoints  &points,
+                                    const unsigned int q)
+  {
+    const unsigned int   n       = points.values.n_dofs();
+    const SectionBlocks &section = points.sections[q];
+    const double *const  E       = &test_rows_(n_rows * q, 0);
+    const double *const  kappa   = &test_rows_(n_rows * q + 3, 0);
+    double *const        force   = &trial_rows_(n_rows * q, 0);
+    double *const        moment  = &trial_rows_(n_rows * q + 3, 0);
+    add_stress_rows(section.A.begin_raw(), 0.5, E, n, force);
+    if (!points.bends)
+      return;
+    add_stress_rows(section.D.begin_raw(), 0.5, kappa, n, moment);
+    if (!section.is_coupled)
+      return;
+    add_stress_rows(section.B.begin_raw(), 0.5, kappa, n, force);
+    const VoigtMatrix<> B_transposed = transpose(section.B);
+    add_stress_rows(B_transposed.begin_raw(), 0.5, E, n, moment);
+  }
+
+  void
+  FiniteCellTerms::add_products(const CellPoints &points, LocalTerms &terms)
+  {
+    const unsigned int n = points.values.n_dofs();
+    product_.reinit(n, n, true);
+    test_rows_.Tmmult(product_, trial_rows_);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        double *const row = &terms.tangent(i, 0);
+        for (unsigned int j = 0; j < n; ++j)
+          row[j] += product_(i, j) + product_(j, i);
+      }
+    add_membrane_force_stiffness(points, terms);
+  }
+
+  void
+  FiniteCellTerms::add_membrane_force_stiffness(const CellPoints &points,
+                                                LocalTerms       &terms)
+  {
+    const auto        &values   = points.values;
+    const auto        &shapes   = values.tying_shapes();
+    const unsigned int n_points = shapes.n_points();
+    const unsigned int n_nodes  = shapes.n_nodes();
+    gradient_rows_.reinit(2 * n_points, n_nodes, true);
+    force_rows_.reinit(2 * n_points, n_nodes, true);
+    for (unsigned int k = 0; k < n_points; ++k)
+      {
+        const auto &n = points.cell.tying_force(k);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            const auto &dN               = shapes.gradient(k, a);
+            gradient_rows_(2 * k, a)     = dN[0];
+            gradient_rows_(2 * k + 1, a) = dN[1];
+            force_rows_(2 * k, a)        = n[0] * dN[0] + n[2] * dN[1];
+            force_rows_(2 * k + 1, a)    = n[2] * dN[0] + n[1] * dN[1];
+          }
+      }
+    node_product_.reinit(n_nodes, n_nodes, true);
+    gradient_rows_.Tmmult(node_product_, force_rows_);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b < n_nodes; ++b)
+        for (unsigned int c = 0; c < spacedim; ++c)
+          terms.tangent(values.dof(a, c), values.dof(b, c)) +=
+            node_product_(a, b);
+  }
+} // namespace Nacre

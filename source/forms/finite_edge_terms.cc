@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/forms/finite_edge_terms.h>
+
+#include <cmath>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** Displacements of a side's nodes; zero if @p u is empty. */
+    void
+    extract_nodes(const ShellEdgeValues &edge,
+                  const unsigned int     side,
+                  const Vector<double>  &u,
+                  NodeVectors<double>   &nodes)
+    {
+      nodes.assign(edge.shapes(side).n_nodes(), Vector3());
+      if (u.size() != 0)
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            nodes[a][c] = u[edge.dof(side, a, c)];
+    }
+  } // namespace
+
+  FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,
+                                   const bool        limits_gap)
+    : section_(section)
+    , limits_gap_(limits_gap)
+  {}
+
+  void
+  FiniteEdgeTerms::add(const ShellEdgeValues                 &edge,
+                       const double                           penalty,
+                       const std::vector<PrescribedRotation> &rotation,
+                       const Vector<double>                  &u,
+                       LocalTerms                            &terms)
+  {
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      extract_nodes(edge, s, u, u_[s]);
+    if (terms.wants_tangent)
+      reinit_rows(edge);
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        point_.reinit(edge, q, section_, penalty, rotation[q], u_);
+        terms.energies.edge += point_.energy();
+        for (unsigned int s = 0; s < edge.n_sides(); ++s)
+          {
+            force_.assign(u_[s].size(), Vector3());
+            point_.add_force(s, force_);
+            add_residual(edge, s, terms);
+          }
+        if (terms.wants_tangent)
+          fill_rows(edge, q);
+      }
+    if (terms.wants_tangent)
+      add_tangent(edge, terms);
+  }
+
+  void
+  FiniteEdgeTerms::add_step(
+    const ShellEdgeValues                                        &edge,
+    const double                                                  penalty,
+    const std::array<const std::vector<PrescribedRotation> *, 2> &rotations,
+    const std::array<const Vector<double> *, 2>                  &u,
+    LocalTerms                                                   &terms)
+  {
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        for (unsigned int end = 0; end < 2; ++end)
+          extract_nodes(edge, s, *u[end], ends_u_[end][s]);
+        u_[s].resize(ends_u_[0][s].size());
+        for (unsigned int a = 0; a < u_[s].size(); ++a)
+          u_[s][a] = 0.5 * (ends_u_[0][s][a] + ends_u_[1][s][a]);
+      }
+    if (terms.wants_tangent)
+      reinit_rows(edge);
+    auto &[start, end] = ends_point_;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        const std::array<PrescribedRotation, 2> rotation = {
+          {(*rotations[0])[q], (*rotations[1])[q]}};
+        start.reinit(edge, q, section_, penalty, rotation[0], ends_u_[0]);
+        end.reinit(edge, q, section_, penalty, rotation[1], ends_u_[1]);
+        step_.reinit(edge, q, start, end, rotation);
+        terms.rotation_work += step_.rotation_work();
+        for (unsigned int s = 0; s < edge.n_sides(); ++s)
+          {
+            force_.assign(u_[s].size(), Vector3());
+            step_.add_force(edge, q, s, force_);
+            add_residual(edge, s, terms);
+          }
+        if (!terms.wants_tangent)
+          continue;
+        point_.reinit(edge,
+                      q,
+                      section_,
+                      penalty,
+                      mean_rotation(rotation[0], rotation[1]),
+                      u_);
+        point_.take_means(start, end);
+        fill_rows(edge, q);
+      }
+    if (terms.wants_tangent)
+      add_tangent(edge, terms);
+  }
+
+  void
+  FiniteEdgeTerms::add_tangent(const ShellEdgeValues &edge, LocalTerms &terms)
+  {
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      add_side_tangent(edge, s, terms);
+    add_jump_tangent(terms);
+  }
+
+  double
+  FiniteEdgeTerms::rotation_gap(const ShellEdgeValues    &edge,
+                                const unsigned int        q,
+                                const PrescribedRotation &rotation,
+                                const Vector<double>     &u)
+  {
+    extract_nodes(edge, 0, u, u_[0]);
+    point_.reinit(edge, q, section_, 1., rotation, u_);
+    return std::abs(point_.jump());
+  }
+
+  void
+  FiniteEdgeTerms::reinit_rows(const ShellEdgeValues &edge)
+  {
+    const unsigned int n_points = edge.n_points();
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const unsigned int n = edge.shapes(s).n_nodes();
+        side_rows_[s].reinit(3 * n_points, n, true);
+        side_derivative_rows_[s].reinit(3 * n_points,
+                                        spacedim * spacedim * n,
+                                        true);
+      }
+    jump_rows_.reinit(n_points, edge.n_dofs());
+    trial_rows_.reinit(n_points, edge.n_dofs());
+  }
+
+  void
+  FiniteEdgeTerms::add_residual(const ShellEdgeValues &edge,
+                                const unsigned int     s,
+                                LocalTerms            &terms) const
+  {
+    for (unsigned int a = 0; a < force_.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[edge.dof(s, a, c)] += force_[a][c];
+  }
+
+  void
+  FiniteEdgeTerms::fill_rows(const ShellEdgeValues &edge, const unsigned int q)
+  {
+    const auto &fluxes = point_.fluxes();
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const auto            &rows    = point_.side(s).rows;
+        const auto             K       = point_.hessian(s, limits_gap_);
+        const auto             jump    = point_.jump_gradient(s);
+        const auto             moment  = point_.moment_gradient(s);
+        const double           mean    = point_.side(s).mean_factor;
+        const unsigned int     n_nodes = rows[0].size();
+        std::array<Vector3, 3> trial;
+        for (unsigned int k = 0; k < 3; ++k)
+          trial[k] = 0.5 * fluxes.penalty * jump[k] +
+                     fluxes.consistency * mean * moment[k];
+        for (unsigned int b = 0; b < n_nodes; ++b)
+          {
+            const double R[3] = {rows[0][b], rows[1][b], rows[2][b]};
+            for (unsigned int d = 0; d < spacedim; ++d)
+              {
+                const unsigned int j = edge.dof(s, b, d);
+                for (unsigned int k = 0; k < 3; ++k)
+                  {
+                    jump_rows_(q, j) += R[k] * jump[k][d];
+                    trial_rows_(q, j) += R[k] * trial[k][d];
+                  }
+              }
+            for (unsigned int k = 0; k < 3; ++k)
+              {
+                side_rows_[s](3 * q + k, b) = R[k];
+                double *const row = &side_derivative_rows_[s](3 * q + k, 0);
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  for (unsigned int d = 0; d < spacedim; ++d)
+                    row[spacedim * (c * n_nodes + b) + d] =
+                      K[k][0][c][d] * R[0] + K[k][1][c][d] * R[1] +
+                      (k < 2 ? K[k][2][c][d] * R[2] : 0.);
+              }
+          }
+      }
+  }
+
+  void
+  FiniteEdgeTerms::add_side_tangent(const ShellEdgeValues &edge,
+                                    const unsigned int     side,
+                                    LocalTerms            &terms)
+  {
+    const unsigned int n_nodes = edge.shapes(side).n_nodes();
+    product_.reinit(n_nodes, spacedim * spacedim * n_nodes, true);
+    side_rows_[side].Tmmult(product_, side_derivative_rows_[side]);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const double *entry = &product_(a, spacedim * c * n_nodes);
+          double *const row   = &terms.tangent(edge.dof(side, a, c), 0);
+          for (unsigned int b = 0; b < n_nodes; ++b)
+            for (unsigned int d = 0; d < spacedim; ++d)
+              row[edge.dof(side, b, d)] += *entry++;
+        }
+  }
+
+  void
+  FiniteEdgeTerms::add_jump_tangent(LocalTerms &terms)
+  {
+    const unsigned int n = jump_rows_.n();
+    product_.reinit(n, n, true);
+    jump_rows_.Tmmult(product_, trial_rows_);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        double *const row = &terms.tangent(i, 0);
+        for (unsigned int j = 0; j < n; ++j)
+          row[j] += product_(i, j) + product_(j, i);
+      }
+  }
+
+  void
+  FiniteEdgeTerms::add_moment(const ShellEdgeValues     &edge,
+                              const std::vector<double> &moment,
+                              const Vector<double>      &u,
+                              LocalTerms                &terms)
+  {
+    const auto             &shapes = edge.shapes(0);
+    FollowingMoment<double> load;
+    extract_nodes(edge, 0, u, u_[0]);
+    force_.assign(shapes.n_nodes(), Vector3());
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        load.reinit(edge, q, moment[q], u_[0]);
+        load.add_force(edge, q, force_);
+        if (!terms.wants_tangent)
+          continue;
+        const auto X = load.derivative();
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+            {
+              const auto         &dN_a = shapes.gradient(q, a);
+              const auto         &dN_b = shapes.gradient(q, b);
+              Tensor<2, spacedim> K;
+              for (unsigned int alpha = 0; alpha < 2; ++alpha)
+                for (unsigned int g = 0; g < 2; ++g)
+                  K += (dN_a[alpha] * dN_b[g]) * X[alpha][g];
+              for (unsigned int c = 0; c < spacedim; ++c)
+                for (unsigned int d = 0; d < spacedim; ++d)
+                  terms.tangent(edge.dof(0, a, c), edge.dof(0, b, d)) +=
+                    K[c][d];
+            }
+      }
+    add_residual(edge, 0, terms);
+  }
+} // namespace Nacre
