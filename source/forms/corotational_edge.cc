@@ -49,11 +49,21 @@ namespace Nacre
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_edge_nodes(edge, s, u, edge_u_[s]);
+    evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
       reinit_edge_rows(edge);
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        edge_point_.reinit(edge, q, section_, penalty, rotation[q], edge_u_);
+        edge_point_.reinit(edge,
+                           q,
+                           section_,
+                           penalty,
+                           rotation[q],
+                           edge_u_,
+                           edge_membrane_);
+        if (section_.is_coupled())
+          for (unsigned int s = 0; s < edge.n_sides(); ++s)
+            fill_edge_membrane_rows(edge, s, q);
         terms.energies.edge += edge_point_.energy();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
           {
@@ -67,6 +77,9 @@ namespace Nacre
             for (unsigned int s = 0; s < edge.n_sides(); ++s)
               fill_edge_rows(s, q);
           }
+        if (section_.is_coupled())
+          for (unsigned int s = 0; s < edge.n_sides(); ++s)
+            add_edge_membrane_terms(edge, s, terms);
       }
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
@@ -80,7 +93,9 @@ namespace Nacre
                                        const Vector<double>     &u)
   {
     extract_edge_nodes(edge, 0, u, edge_u_[0]);
-    edge_point_.reinit(edge, q, section_, 1., rotation, edge_u_);
+    evaluate_edge_membrane(edge);
+    edge_point_
+      .reinit(edge, q, section_, 1., rotation, edge_u_, edge_membrane_);
     const auto &side = edge_point_.side(0);
     return std::atan2(cross_product_3d(side.normal, side.deformed.t0).norm(),
                       side.normal * side.deformed.t0);
@@ -131,6 +146,7 @@ namespace Nacre
     const Vector<double>                  &u_end,
     LocalTerms                            &terms)
   {
+    check_step_section();
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
@@ -286,6 +302,9 @@ namespace Nacre
                   side.jump_factor * side.hinge.rotation[b] * side.normal[c];
                 mean_row_[j] +=
                   side.mean_factor * side.hinge.moment[b] * side.normal[c];
+                if (section_.is_coupled())
+                  mean_row_[j] += side.mean_factor *
+                                  membrane_moment_row_[s][spacedim * b + c];
                 if (is_consistent())
                   {
                     // omega = spin t0[c] d + e columns[c]

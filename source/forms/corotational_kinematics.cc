@@ -34,18 +34,6 @@ namespace Nacre
           for (unsigned int c = 0; c < spacedim; ++c)
             nodes[a][c] = u[values.dof(a, c)];
     }
-
-    /**
-     * The vectors of which v,1 and v,2 make the sample's virtual strain
-     * direction . (q_1 . v,1, q_2 . v,2, q_1 . v,2 + q_2 . v,1).
-     */
-    std::array<Vector3, 2>
-    sample_vectors(const std::array<double, 3>  &direction,
-                   const std::array<Vector3, 2> &q)
-    {
-      return {{direction[0] * q[0] + direction[2] * q[1],
-               direction[1] * q[1] + direction[2] * q[0]}};
-    }
   } // namespace
 
   FullMatrix<double>
@@ -125,6 +113,7 @@ namespace Nacre
     const Vector<double>                              &u_end,
     LocalTerms                                        &terms)
   {
+    check_step_section();
     in_step_ = true;
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
@@ -176,13 +165,26 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_membrane_terms(CellPoints        &points,
-                                             const unsigned int first_row,
-                                             LocalTerms        &terms)
+  CorotationalKinematics::evaluate_strains(CellPoints &points)
   {
     points.membrane_stiffness =
       membrane_stiffness(points.values, points.stiffness.membrane);
     membrane_.reinit(points.values, points.membrane_stiffness, u_);
+    if (in_step_ || &points != &full_points_)
+      return;
+    bending_.reinit(points.values, points.stiffness.bending, u_);
+    if (!points.stiffness.coupling.empty())
+      bending_.couple(points.values.tying(),
+                      points.stiffness.coupling,
+                      membrane_);
+  }
+
+  void
+  CorotationalKinematics::add_membrane_terms(CellPoints        &points,
+                                             const unsigned int first_row,
+                                             LocalTerms        &terms)
+  {
+    evaluate_strains(points);
     if (in_step_)
       add_membrane_step_force(points);
     else
@@ -208,7 +210,6 @@ namespace Nacre
       add_bending_step_force(points);
     else
       {
-        bending_.reinit(points.values, points.stiffness.bending, u_);
         bending_.add_force(points.values, force_);
         terms.energies.bending += bending_.energy();
       }
@@ -282,24 +283,10 @@ namespace Nacre
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
         const auto &[k, direction] = samples[s];
-        const auto &polar          = membrane_.polar(k);
-        auto        vectors        = sample_vectors(direction, polar.q_cov);
-        force_vectors_[s]          = vectors;
-        if (is_consistent())
-          {
-            // dq_alpha = (t . omega) t x q_alpha + (...) t
-            const auto &deformed = membrane_.deformed(k);
-            const auto  turned =
-              sample_vectors(direction,
-                             {{cross_product_3d(deformed.t0, polar.q_cov[0]),
-                               cross_product_3d(deformed.t0, polar.q_cov[1])}});
-            const double spin_strain =
-              NACRE_MUTABLE(polar_spin_strain, 1., 0.) *
-              (turned[0] * deformed.a_cov[0] + turned[1] * deformed.a_cov[1]);
-            for (unsigned int g = 0; g < 2; ++g)
-              vectors[g] += spin_strain * polar.spin[g];
-          }
-        strain_vectors_[s] = vectors;
+        force_vectors_[s]          = membrane_.sample_vectors(direction, k);
+        strain_vectors_[s]         = is_consistent() ?
+                                       membrane_.sample_derivatives(direction, k) :
+                                       force_vectors_[s];
       }
   }
 
@@ -322,6 +309,11 @@ namespace Nacre
       }
     force_rows_.reinit(samples.size(), sample_rows_.n(), true);
     points.membrane_stiffness.mmult(force_rows_, sample_rows_);
+    if (!points.stiffness.coupling.empty())
+      {
+        fill_strain_rows(points);
+        add_coupling_to_force_rows(points);
+      }
   }
 
   namespace
@@ -449,6 +441,8 @@ namespace Nacre
               }
           }
       }
+    if (!points.stiffness.coupling.empty())
+      add_coupling_to_bending_rows(points, first_row);
   }
 
   void

@@ -164,15 +164,34 @@ namespace Nacre
                   const KinematicsOptions &options)
   {
     if (options.edge_form == EdgeForm::averaged_normal)
-      return std::make_unique<AveragedNormalKinematics>(
-        discretization,
-        section,
-        options.membrane_strain);
+      {
+        AssertThrow(
+          !section.is_coupled(),
+          ExcMessage(
+            "Discretization/Edge form: averaged normal: it has no terms for "
+            "sections that couple membrane forces and bending; use hinge."));
+        return std::make_unique<AveragedNormalKinematics>(
+          discretization,
+          section,
+          options.membrane_strain);
+      }
     if (options.model == KinematicsModel::corotational)
-      return std::make_unique<CorotationalKinematics>(discretization,
-                                                      section,
-                                                      options.membrane_strain,
-                                                      options.tangent);
+      {
+        AssertThrow(section.is_linear(),
+                    ExcMessage("Discretization/Kinematics: corotational: it is "
+                               "for linear sections only."));
+        AssertThrow(!section.is_coupled() ||
+                      !blends_integration(discretization.element(),
+                                          options.membrane_strain),
+                    ExcMessage(
+                      "Discretization/Membrane strain: reduced: in "
+                      "co-rotational kinematics it has no terms for sections "
+                      "that couple membrane forces and bending; use tied."));
+        return std::make_unique<CorotationalKinematics>(discretization,
+                                                        section,
+                                                        options.membrane_strain,
+                                                        options.tangent);
+      }
     return std::make_unique<LinearKinematics>(discretization,
                                               section,
                                               options.membrane_strain);

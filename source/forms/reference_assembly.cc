@@ -11,6 +11,8 @@
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
 
+#include <deal.II/base/qprojector.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/fe_interface_values.h>
@@ -134,10 +136,16 @@ namespace Nacre
                 discretization.dof_handler().get_fe(),
                 Quadrature<dim>(tying.points()),
                 update_gradients | geometry_flags)
+      , edge_samples(discretization.mapping(),
+                     discretization.dof_handler().get_fe(),
+                     Quadrature<dim>(
+                       MembraneTying(discretization.element(), {}).points()),
+                     update_gradients | geometry_flags)
       , reduced(discretization.mapping(),
                 discretization.dof_handler().get_fe(),
                 discretization.element().reduced_quadrature(),
-                update_gradients | update_JxW_values | geometry_flags)
+                update_gradients | update_hessians | update_JxW_values |
+                  geometry_flags)
       , edge(discretization.mapping(),
              discretization.dof_handler().get_fe(),
              discretization.element().edge_quadrature(),
@@ -156,7 +164,9 @@ namespace Nacre
     const MembraneTying     tying;
     FEValues<dim, spacedim> cell;
     /** At the points where tied membrane strains are sampled. */
-    FEValues<dim, spacedim>          samples;
+    FEValues<dim, spacedim> samples;
+    /** Those for the membrane strains at edges, which are always tied. */
+    FEValues<dim, spacedim>          edge_samples;
     FEValues<dim, spacedim>          reduced;
     FEInterfaceValues<dim, spacedim> edge;
   };
@@ -200,6 +210,25 @@ namespace Nacre
           const Voigt<> resultant = stiffness * strain[i];
           for (unsigned int j = 0; j < strain.size(); ++j)
             matrix(i, j) += weight * (resultant * strain[j]);
+        }
+    }
+
+    /** matrix += weight (eps(i) : B : rho(j) + rho(i) : B^T : eps(j)). */
+    void
+    add_coupling(const std::vector<Voigt<>> &eps,
+                 const VoigtMatrix<>        &B,
+                 const std::vector<Voigt<>> &rho,
+                 const double                weight,
+                 FullMatrix<double>         &matrix)
+    {
+      for (unsigned int j = 0; j < rho.size(); ++j)
+        {
+          const Voigt<> n = B * rho[j];
+          for (unsigned int i = 0; i < eps.size(); ++i)
+            {
+              matrix(i, j) += weight * (eps[i] * n);
+              matrix(j, i) += weight * (eps[i] * n);
+            }
         }
     }
 
@@ -313,6 +342,9 @@ namespace Nacre
           rho[i] = bending_strain(fe_values, frame, i, q);
         add_energy(eps, H.membrane, share * dA, part.matrix);
         add_energy(rho, H.bending, dA, part.matrix);
+        // Coupling: eps(v):B:rho(u) + rho(v):B^T:eps(u)
+        if (section_.is_coupled())
+          add_coupling(eps, H.coupling, rho, share * dA, part.matrix);
 
         // f . v
         const double area_density = section_.density(x) * section_.thickness(x);
@@ -324,37 +356,100 @@ namespace Nacre
       return;
     scratch.reduced.reinit(cell);
     std::vector<Voigt<>> eps(dofs.size());
+    const bool           is_coupled = section_.is_coupled();
     for (const unsigned int q : scratch.reduced.quadrature_point_indices())
       {
         const auto frame = frame_at(scratch.reduced, q);
         const auto H =
           section_.stiffness(frame, section_point(scratch.reduced, q));
+        const double dA = (1. - share) * scratch.reduced.JxW(q);
         for (unsigned int i = 0; i < eps.size(); ++i)
-          eps[i] = membrane_strain(scratch.reduced, frame, i, q);
-        add_energy(eps,
-                   H.membrane,
-                   (1. - share) * scratch.reduced.JxW(q),
-                   part.matrix);
+          {
+            eps[i] = membrane_strain(scratch.reduced, frame, i, q);
+            if (is_coupled)
+              rho[i] = bending_strain(scratch.reduced, frame, i, q);
+          }
+        add_energy(eps, H.membrane, dA, part.matrix);
+        if (is_coupled)
+          add_coupling(eps, H.coupling, rho, dA, part.matrix);
       }
   }
 
 
   namespace
   {
+    /** The tied membrane strain of a cell at the points of one of its edges. */
+    class TiedEdgeStrain
+    {
+    public:
+      /** @param samples on the cell, with update_gradients */
+      TiedEdgeStrain(
+        const Discretization                                  &discretization,
+        const SectionLaw                                      &section,
+        FEValues<dim, spacedim>                               &samples,
+        const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+        const unsigned int                                     face,
+        const unsigned int                                     subface)
+        : tying_(discretization.element(),
+                 unit_points(discretization, cell, face, subface))
+      {
+        if (!section.is_coupled())
+          return;
+        samples.reinit(cell);
+        samples_ = sample_membrane_strain(tying_, samples);
+      }
+
+      /** At the point @p q: [dof]. */
+      std::vector<Voigt<>>
+      at(const unsigned int q) const
+      {
+        return tied_membrane_strain(tying_, samples_, q);
+      }
+
+    private:
+      static std::vector<Point<dim>>
+      unit_points(const Discretization &discretization,
+                  const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+                  const unsigned int                                     face,
+                  const unsigned int subface)
+      {
+        const auto quadrature = discretization.element().edge_quadrature();
+        std::vector<Point<dim>> points(quadrature.size());
+        if (subface == numbers::invalid_unsigned_int)
+          QProjector<dim>::project_to_face(cell->reference_cell(),
+                                           quadrature,
+                                           face,
+                                           points);
+        else
+          QProjector<dim>::project_to_subface(cell->reference_cell(),
+                                              quadrature,
+                                              face,
+                                              subface,
+                                              points);
+        if (!cell->face_orientation(face))
+          std::reverse(points.begin(), points.end());
+        return points;
+      }
+
+      const MembraneTying              tying_;
+      std::vector<std::vector<double>> samples_;
+    };
+
     /** Rotation and moment of one side of an edge at a point, for each dof. */
     struct EdgeSide
     {
       EdgeSide(const FEValuesBase<dim, spacedim> &fe_values,
                const unsigned int                 q,
                const Tensor<1, spacedim>         &nu,
-               const SectionLaw                  &section)
+               const SectionLaw                  &section,
+               const TiedEdgeStrain              &tied)
         : frame(frame_at(fe_values, q))
         , nu(nu)
         , theta(fe_values.dofs_per_cell)
         , m_nn(fe_values.dofs_per_cell)
       {
         const auto H = section.stiffness(frame, section_point(fe_values, q));
-        // nu . m . nu = (nu nu) : H_m : rho, and H_m(nu, nu, nu, nu)
+        // nu . m . nu = (nu nu) : (B^T : eps + D : rho), and D(nu, nu, nu, nu)
         const auto nu_nu = ShellStrain::dyad_of(frame, nu);
         D                = nu_nu * (H.bending * nu_nu);
         for (unsigned int i = 0; i < theta.size(); ++i)
@@ -362,6 +457,12 @@ namespace Nacre
             theta[i] = rotation(fe_values, frame.t0, nu, i, q);
             m_nn[i] =
               nu_nu * (H.bending * bending_strain(fe_values, frame, i, q));
+          }
+        if (section.is_coupled())
+          {
+            const auto eps = tied.at(q);
+            for (unsigned int i = 0; i < theta.size(); ++i)
+              m_nn[i] += (H.coupling * nu_nu) * eps[i];
           }
       }
 
@@ -393,18 +494,38 @@ namespace Nacre
   {
     auto &edge = scratch.edge;
     edge.reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
-    auto        &part  = copy.add_part(edge.get_interface_dof_indices());
-    const auto  &minus = edge.get_fe_face_values(0);
-    const auto  &plus  = edge.get_fe_face_values(1);
-    const double eta   = penalty_.interior(cell, neighbor);
-    const auto   n     = edge.n_current_interface_dofs();
+    auto                &part = copy.add_part(edge.get_interface_dof_indices());
+    const auto          &minus = edge.get_fe_face_values(0);
+    const auto          &plus  = edge.get_fe_face_values(1);
+    const double         eta   = penalty_.interior(cell, neighbor);
+    const auto           n     = edge.n_current_interface_dofs();
+    const TiedEdgeStrain tied_minus(discretization_,
+                                    section_,
+                                    scratch.edge_samples,
+                                    cell,
+                                    face,
+                                    subface);
+    const TiedEdgeStrain tied_plus(discretization_,
+                                   section_,
+                                   scratch.edge_samples,
+                                   neighbor,
+                                   neighbor_face,
+                                   neighbor_subface);
 
     std::vector<double> jump(n), mean(n);
     for (const unsigned int q : edge.quadrature_point_indices())
       {
         // Each side has its own frame: nu^- = n^-, nu^+ = -n^+.
-        const EdgeSide side_minus(minus, q, minus.normal_vector(q), section_);
-        const EdgeSide side_plus(plus, q, -plus.normal_vector(q), section_);
+        const EdgeSide side_minus(minus,
+                                  q,
+                                  minus.normal_vector(q),
+                                  section_,
+                                  tied_minus);
+        const EdgeSide side_plus(plus,
+                                 q,
+                                 -plus.normal_vector(q),
+                                 section_,
+                                 tied_plus);
         // A neighbour of the opposite orientation enters with the other sign.
         const double sigma =
           side_plus.tangent() * side_minus.tangent() > 0. ? 1. : -1.;
@@ -452,11 +573,21 @@ namespace Nacre
     const auto  &fe_values = scratch.edge.get_fe_face_values(0);
     auto        &part = copy.add_part(scratch.edge.get_interface_dof_indices());
     const double eta  = penalty_.boundary(cell);
+    const TiedEdgeStrain tied(discretization_,
+                              section_,
+                              scratch.edge_samples,
+                              cell,
+                              face,
+                              numbers::invalid_unsigned_int);
     for (const unsigned int q : fe_values.quadrature_point_indices())
       {
         const auto     x  = fe_values.quadrature_point(q);
         const double   ds = fe_values.JxW(q);
-        const EdgeSide side(fe_values, q, fe_values.normal_vector(q), section_);
+        const EdgeSide side(fe_values,
+                            q,
+                            fe_values.normal_vector(q),
+                            section_,
+                            tied);
         for (const unsigned int i : fe_values.dof_indices())
           {
             if (force != loads_.edge_forces().end())

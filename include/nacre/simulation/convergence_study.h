@@ -4,7 +4,7 @@
 #ifndef nacre_simulation_convergence_study_h
 #define nacre_simulation_convergence_study_h
 
-#include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/mechanics/shell_section.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/results_table.h>
 #include <nacre/postprocess/vtu_output.h>
@@ -32,7 +32,7 @@ namespace Nacre
   public:
     explicit ConvergenceStudy(const MPI_Comm              communicator,
                               std::unique_ptr<SectionLaw> section =
-                                std::make_unique<LinearElasticSection>());
+                                std::make_unique<ShellSection>());
 
     /**
      * Check the parameters, read before, against each other for every case;

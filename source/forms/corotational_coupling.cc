@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// The terms of CorotationalKinematics for sections that couple membrane forces
+// and bending: n = A eps + B rho, m = B^T eps + D rho.
+
+#include <nacre/forms/corotational_kinematics.h>
+
+namespace Nacre
+{
+  void
+  CorotationalKinematics::check_step_section() const
+  {
+    AssertThrow(!section_.is_coupled(),
+                ExcMessage("Analysis/Scheme: energy momentum: in co-rotational "
+                           "kinematics it takes no sections that couple "
+                           "membrane forces and bending, as stacks that aren't "
+                           "symmetric or have an offset; take another "
+                           "scheme."));
+  }
+
+  void
+  CorotationalKinematics::fill_strain_rows(const CellPoints &points)
+  {
+    const auto        &values = points.values;
+    const auto        &tying  = values.tying();
+    const auto        &shapes = values.shapes();
+    const unsigned int n      = values.n_dofs();
+    eps_rows_.reinit(3 * values.n_points(), n);
+    rho_rows_.reinit(3 * values.n_points(), n, true);
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        for (unsigned int v = 0; v < 3; ++v)
+          for (const auto &[s, weight] : tying.weights(q, v))
+            for (unsigned int j = 0; j < n; ++j)
+              eps_rows_(3 * q + v, j) += weight * sample_rows_(s, j);
+        const auto &deformed = bending_.deformed(q);
+        for (unsigned int b = 0; b < u_.size(); ++b)
+          {
+            const auto strain =
+              ShellStrain::bending_of_shape_function(is_consistent() ?
+                                                       deformed :
+                                                       values.frame(q),
+                                                     shapes.gradient(q, b),
+                                                     shapes.hessian(q, b));
+            for (unsigned int v = 0; v < 3; ++v)
+              for (unsigned int d = 0; d < spacedim; ++d)
+                rho_rows_(3 * q + v, spacedim * b + d) =
+                  strain[v] * deformed.t0[d];
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::add_coupling_to_force_rows(const CellPoints &points)
+  {
+    const auto        &tying = points.values.tying();
+    const unsigned int n     = rho_rows_.n();
+    for (unsigned int q = 0; q < points.values.n_points(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          const auto &B = points.stiffness.coupling[q][v];
+          for (const auto &[s, weight] : tying.weights(q, v))
+            for (unsigned int w = 0; w < 3; ++w)
+              for (unsigned int j = 0; j < n; ++j)
+                force_rows_(s, j) += weight * B[w] * rho_rows_(3 * q + w, j);
+        }
+  }
+
+  void
+  CorotationalKinematics::add_coupling_to_bending_rows(
+    const CellPoints  &points,
+    const unsigned int first_row)
+  {
+    const unsigned int  n = eps_rows_.n();
+    std::vector<double> moment(n);
+    for (unsigned int q = 0; q < points.values.n_points(); ++q)
+      {
+        const auto &t = bending_.deformed(q).t0;
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            std::fill(moment.begin(), moment.end(), 0.);
+            for (unsigned int w = 0; w < 3; ++w)
+              for (unsigned int j = 0; j < n; ++j)
+                moment[j] +=
+                  points.stiffness.coupling[q][w][v] * eps_rows_(3 * q + w, j);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              for (unsigned int j = 0; j < n; ++j)
+                derivative_rows_(first_row + 3 * q + v, c * n + j) +=
+                  t[c] * moment[j];
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::evaluate_edge_membrane(const ShellEdgeValues &edge)
+  {
+    if (section_.is_coupled())
+      for (unsigned int s = 0; s < edge.n_sides(); ++s)
+        edge_membrane_[s].reinit_strains(EdgeSideTying(edge, s), edge_u_[s]);
+  }
+
+  void
+  CorotationalKinematics::fill_edge_membrane_rows(const ShellEdgeValues &edge,
+                                                  const unsigned int     side,
+                                                  const unsigned int     q)
+  {
+    const auto        &tying  = edge.tying(side);
+    const auto        &shapes = edge.tying_shapes();
+    const unsigned int n      = spacedim * shapes.n_nodes();
+    const auto        &B_nu   = edge_point_.side(side).hinge.coupling;
+    auto              &force  = membrane_force_row_[side];
+    auto              &moment = membrane_moment_row_[side];
+    force.assign(n, 0.);
+    moment.assign(n, 0.);
+    std::vector<double> share(tying.samples().size());
+    for (unsigned int v = 0; v < 3; ++v)
+      for (const auto &[s, weight] : tying.weights(q, v))
+        share[s] += B_nu[v] * weight;
+    for (unsigned int s = 0; s < share.size(); ++s)
+      {
+        const auto &[k, direction] = tying.samples()[s];
+        const auto vectors = edge_membrane_[side].sample_vectors(direction, k);
+        // Without the rotations' derivatives both are the same.
+        const auto derivatives =
+          is_consistent() ?
+            edge_membrane_[side].sample_derivatives(direction, k) :
+            vectors;
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          {
+            const auto &dN = shapes.gradient(k, a);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                force[spacedim * a + c] +=
+                  share[s] * (dN[0] * vectors[0][c] + dN[1] * vectors[1][c]);
+                moment[spacedim * a + c] +=
+                  share[s] *
+                  (dN[0] * derivatives[0][c] + dN[1] * derivatives[1][c]);
+              }
+          }
+      }
+  }
+
+  void
+  CorotationalKinematics::add_edge_membrane_terms(const ShellEdgeValues &edge,
+                                                  const unsigned int     side,
+                                                  LocalTerms &terms) const
+  {
+    const auto  &force = membrane_force_row_[side];
+    const double g     = edge_point_.moment_force(side);
+    const double factor =
+      edge_point_.side(side).mean_factor * edge_point_.fluxes().symmetry;
+    for (unsigned int a = 0; a < force.size() / spacedim; ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const unsigned int i = edge.dof(side, a, c);
+          const double       f = force[spacedim * a + c];
+          terms.residual[i] += g * f;
+          // The change of the row itself multiplies the jump of the rotation,
+          // which vanishes with the size of the cells: it is left out.
+          if (terms.wants_tangent)
+            for (unsigned int j = 0; j < jump_row_.size(); ++j)
+              terms.tangent(i, j) += factor * f * jump_row_[j];
+        }
+  }
+} // namespace Nacre
