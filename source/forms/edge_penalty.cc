@@ -16,14 +16,6 @@ namespace Nacre
 {
   namespace
   {
-    Tensor<1, spacedim>
-    unit_vector(const unsigned int c)
-    {
-      Tensor<1, spacedim> e;
-      e[c] = 1.;
-      return e;
-    }
-
     /** Lengths of the edges of a cell, with a point more than the form's. */
     class Perimeter
     {
@@ -103,8 +95,12 @@ namespace Nacre
                 double *const row = &moments_(face * n_points + q, 0);
                 for (unsigned int a = 0; a < hinge_.moment.size(); ++a)
                   for (unsigned int c = 0; c < spacedim; ++c)
-                    row[values_.dof(a, c)] =
-                      weight * hinge_.moment_of(a, unit_vector(c));
+                    {
+                      double &entry = row[values_.dof(a, c)];
+                      entry         = weight * hinge_.moment[a] * hinge_.t0[c];
+                      if (!hinge_.membrane_moment.empty())
+                        entry += weight * hinge_.membrane_moment[a][c];
+                    }
               }
           }
         eigenvalue = largest_eigenvalue();

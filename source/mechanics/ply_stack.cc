@@ -61,7 +61,10 @@ namespace Nacre
         if (suffix == 's' || suffix == 't')
           ++place_;
         if (suffix == 's')
-          plies.insert(plies.end(), plies.rbegin(), plies.rend());
+          {
+            const std::vector<Ply> mirrored(plies.rbegin(), plies.rend());
+            plies.insert(plies.end(), mirrored.begin(), mirrored.end());
+          }
         check(place_ == text_.size(),
               "'" + text_.substr(place_) +
                 "' behind the brackets is not understood; a number, s "

@@ -8,6 +8,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <iostream>
+#include <sstream>
 
 using namespace Nacre;
 
@@ -60,19 +61,21 @@ main()
                                  "[(0_100)_20]",
                                  "[0]99999999999999999999"})
     {
-      std::string message = "ACCEPTED";
+      std::string message = "ACCEPTED " + text;
       try
         {
           parse_ply_stack(text, "Stack");
         }
       catch (const dealii::ExceptionBase &exception)
         {
-          message          = exception.what();
+          // In one line, up to the advice that all messages end with
+          std::istringstream words(exception.what());
+          message.clear();
+          for (std::string word; words >> word;)
+            message += (message.empty() ? "" : " ") + word;
           const auto begin = message.find("Stack: '");
-          const auto end   = message.find(". Write the plies");
-          message = begin == std::string::npos || end == std::string::npos ?
-                      "OTHER: " + message :
-                      message.substr(begin, end - begin);
+          message =
+            message.substr(begin, message.find(". Write the plies") - begin);
         }
       std::cout << message << std::endl;
     }
