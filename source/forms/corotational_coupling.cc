@@ -97,7 +97,10 @@ namespace Nacre
   {
     if (section_.is_coupled())
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
-        edge_membrane_[s].reinit_strains(EdgeSideTying(edge, s), edge_u_[s]);
+        {
+          edge_membrane_[s].reinit_strains(EdgeSideTying(edge, s), edge_u_[s]);
+          edge_membrane_[s].clear_forces(edge.tying(s));
+        }
   }
 
   void
@@ -142,25 +145,59 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_edge_membrane_terms(const ShellEdgeValues &edge,
+  CorotationalKinematics::add_edge_membrane_point(const ShellEdgeValues &edge,
                                                   const unsigned int     side,
-                                                  LocalTerms &terms) const
+                                                  const unsigned int     q,
+                                                  LocalTerms            &terms)
   {
-    const auto  &force = membrane_force_row_[side];
-    const double g     = edge_point_.moment_force(side);
-    const double factor =
-      edge_point_.side(side).mean_factor * edge_point_.fluxes().symmetry;
-    for (unsigned int a = 0; a < force.size() / spacedim; ++a)
+    const auto          &point = edge_point_.side(side);
+    std::vector<Voigt<>> n(q + 1);
+    n[q] = edge_point_.moment_force(side) * point.hinge.coupling;
+    edge_membrane_[side].add_point_forces(edge.tying(side), n);
+    if (!terms.wants_tangent)
+      return;
+    const auto  &row    = membrane_force_row_[side];
+    const double factor = point.mean_factor * edge_point_.fluxes().symmetry;
+    for (unsigned int a = 0; a < row.size() / spacedim; ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         {
+          const double       f = factor * row[spacedim * a + c];
           const unsigned int i = edge.dof(side, a, c);
-          const double       f = force[spacedim * a + c];
-          terms.residual[i] += g * f;
-          // The change of the row itself multiplies the jump of the rotation,
-          // which vanishes with the size of the cells: it is left out.
-          if (terms.wants_tangent)
-            for (unsigned int j = 0; j < jump_row_.size(); ++j)
-              terms.tangent(i, j) += factor * f * jump_row_[j];
+          for (unsigned int j = 0; j < jump_row_.size(); ++j)
+            terms.tangent(i, j) += f * jump_row_[j];
         }
+  }
+
+  void
+  CorotationalKinematics::add_edge_membrane_terms(const ShellEdgeValues &edge,
+                                                  const unsigned int     side,
+                                                  LocalTerms            &terms)
+  {
+    const EdgeSideTying values(edge, side);
+    const auto         &shapes   = values.tying_shapes();
+    const auto         &membrane = edge_membrane_[side];
+    force_.assign(shapes.n_nodes(), Tensor<1, spacedim>());
+    membrane.add_force(values, force_);
+    add_edge_residual(edge, side, terms);
+    if (!terms.wants_tangent || !is_consistent())
+      return;
+    for (unsigned int k = 0; k < shapes.n_points(); ++k)
+      {
+        const auto X = membrane.turn_derivative(k);
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int b = 0; b < shapes.n_nodes(); ++b)
+            {
+              Tensor<2, spacedim> K;
+              for (unsigned int alpha = 0; alpha < 2; ++alpha)
+                for (unsigned int g = 0; g < 2; ++g)
+                  K +=
+                    (shapes.gradient(k, a)[alpha] * shapes.gradient(k, b)[g]) *
+                    X[alpha][g];
+              for (unsigned int c = 0; c < spacedim; ++c)
+                for (unsigned int d = 0; d < spacedim; ++d)
+                  terms.tangent(edge.dof(side, a, c), edge.dof(side, b, d)) +=
+                    K[c][d];
+            }
+      }
   }
 } // namespace Nacre

@@ -79,8 +79,11 @@ namespace Nacre
           }
         if (section_.is_coupled())
           for (unsigned int s = 0; s < edge.n_sides(); ++s)
-            add_edge_membrane_terms(edge, s, terms);
+            add_edge_membrane_point(edge, s, q, terms);
       }
+    if (section_.is_coupled())
+      for (unsigned int s = 0; s < edge.n_sides(); ++s)
+        add_edge_membrane_terms(edge, s, terms);
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
         add_edge_tangent(edge, s, terms);

@@ -316,34 +316,6 @@ namespace Nacre
       }
   }
 
-  namespace
-  {
-    /**
-     * The part of dg_alpha = d(N^alpha beta q_beta) that comes from dq_beta,
-     * [alpha][g]: to be applied to d(phi,g).
-     */
-    std::array<std::array<Tensor<2, spacedim>, 2>, 2>
-    polar_derivative(const Voigt<>         &n,
-                     const SurfaceFrame<>  &deformed,
-                     const PolarRotation<> &polar)
-    {
-      const auto  &t       = deformed.t0;
-      const double N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
-      std::array<std::array<Tensor<2, spacedim>, 2>, 2> X;
-      for (unsigned int alpha = 0; alpha < 2; ++alpha)
-        {
-          const Vector3 r =
-            N[alpha][0] * polar.q_cov[0] + N[alpha][1] * polar.q_cov[1];
-          for (unsigned int g = 0; g < 2; ++g)
-            X[alpha][g] =
-              (r * deformed.a_con[g]) * outer_product(t, t) +
-              NACRE_MUTABLE(polar_spin, 1., 0.) *
-                outer_product(cross_product_3d(t, r), polar.spin[g]);
-        }
-      return X;
-    }
-  } // namespace
-
   void
   CorotationalKinematics::fill_membrane_rows(const CellPoints  &points,
                                              const unsigned int first_row)
@@ -371,9 +343,7 @@ namespace Nacre
     // ... and turn.
     for (unsigned int k = 0; k < shapes.n_points(); ++k)
       {
-        const auto X = polar_derivative(membrane_.resultant(k),
-                                        membrane_.deformed(k),
-                                        membrane_.polar(k));
+        const auto X = membrane_.turn_derivative(k);
         for (unsigned int alpha = 0; alpha < 2; ++alpha)
           {
             const unsigned int row = points.membrane_rows[2 * k + alpha];

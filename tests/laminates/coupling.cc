@@ -5,6 +5,7 @@
 // assembly equals the textbook's, the numbering and orientation of cells don't
 // matter, an isotropic stack is the isotropic section, patch tests.
 
+#include "laminate_mesh.h"
 #include "laminate_parameters.h"
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/reference_assembly.h>
@@ -12,40 +13,6 @@
 #include <nacre/solvers/direct_solver.h>
 
 using namespace Tests;
-
-/** 3 x 2 cells of the rectangle [0, 3] x [0, 2]. */
-Mesh
-make_mesh(const std::function<Point<3>(const Point<3> &)> &map)
-{
-  Mesh mesh;
-  for (unsigned int j = 0; j < 3; ++j)
-    for (unsigned int i = 0; i < 4; ++i)
-      mesh.vertices.emplace_back(i, j, 0.);
-  for (unsigned int j = 0; j < 2; ++j)
-    for (unsigned int i = 0; i < 3; ++i)
-      mesh.cells.push_back(
-        {{4 * j + i, 4 * j + i + 1, 4 * j + i + 4, 4 * j + i + 5}});
-  mesh.map = map;
-  return mesh;
-}
-
-Point<3>
-fold(const Point<3> &x)
-{
-  return {x[0], x[1], -1.5 * std::abs(x[0] - 2.)};
-}
-
-Element
-lagrange(const unsigned int degree)
-{
-  return {ElementType::lagrange, degree};
-}
-
-const std::string stack_text =
-  laminate_text("[0/30/-60]",
-                "0.1",
-                "  set Material direction = 1, 0.4, 0\n"
-                "  set Top = 0.1, 0, 1\n");
 
 /** The dense matrix, without constraints. */
 FullMatrix<double>
@@ -127,7 +94,7 @@ test_assembly(const std::string        &name,
 void
 test_assemblies()
 {
-  const LaminateParameters p(stack_text);
+  const LaminateParameters p(coupled_stack);
   const auto               curved = make_mesh(bend);
   for (const auto &element : {lagrange(2), lagrange(3), serendipity, triangle})
     for (const auto strain :
@@ -151,7 +118,7 @@ test_assemblies()
 void
 test_orientation()
 {
-  const LaminateParameters p(stack_text);
+  const LaminateParameters p(coupled_stack);
   const auto energy_on = [&](const Mesh &mesh, const Element &element) {
     const auto          discretization = make_discretization(mesh, element);
     const ShellOperator shell_operator(*discretization,

@@ -111,6 +111,14 @@ namespace Nacre
         }
     }
 
+    /** Begin with no forces, for add_point_force(). */
+    void
+    clear_forces(const MembraneTying &tying)
+    {
+      forces_.assign(tying.samples().size(), 0.);
+      set_resultants(tying);
+    }
+
     /** The strain at the point @p q, interpolated from the samples. */
     Voigt<Number>
     tied_strain(const MembraneTying &tying, const unsigned int q) const
@@ -135,6 +143,31 @@ namespace Nacre
           for (const auto &[s, weight] : tying.weights(q, v))
             forces_[s] += weight * n[q][v];
       set_resultants(tying);
+    }
+
+    /**
+     * The force of a node is N,alpha g_alpha, g_alpha = N^alpha beta q_beta,
+     * summed over the tying points: the part of dg_alpha at the point @p k that
+     * comes from dq_beta, [alpha][g], to be applied to d(phi,g).
+     */
+    std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2>
+    turn_derivative(const unsigned int k) const
+    {
+      const auto  &n       = resultants_[k];
+      const auto  &t       = deformed_[k].t0;
+      const Number N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
+      std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2> X;
+      for (unsigned int alpha = 0; alpha < 2; ++alpha)
+        {
+          const Vector r =
+            N[alpha][0] * polar_[k].q_cov[0] + N[alpha][1] * polar_[k].q_cov[1];
+          for (unsigned int g = 0; g < 2; ++g)
+            X[alpha][g] =
+              (r * deformed_[k].a_con[g]) * outer_product(t, t) +
+              NACRE_MUTABLE(polar_spin, 1., 0.) *
+                outer_product(cross_product_3d(t, r), polar_[k].spin[g]);
+        }
+      return X;
     }
 
     /**
@@ -172,8 +205,9 @@ namespace Nacre
     /**
      * Add the internal force of each node, R B^T D B (R^T x - X0), (48).
      */
+    template <typename Values>
     void
-    add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
+    add_force(const Values &values, NodeVectors<Number> &force) const
     {
       for (unsigned int k = 0; k < polar_.size(); ++k)
         {

@@ -207,11 +207,21 @@ namespace Nacre
                             const unsigned int     side,
                             const unsigned int     q);
 
-    /** What the membrane strain of a side adds to residual and tangent. */
+    /**
+     * What the membrane strain of a side adds at the point of edge_point_: the
+     * forces of the samples, and the tangent but for their turning.
+     */
+    void
+    add_edge_membrane_point(const ShellEdgeValues &edge,
+                            const unsigned int     side,
+                            const unsigned int     q,
+                            LocalTerms            &terms);
+
+    /** The residual of all points, and how the samples' forces turn. */
     void
     add_edge_membrane_terms(const ShellEdgeValues &edge,
                             const unsigned int     side,
-                            LocalTerms            &terms) const;
+                            LocalTerms            &terms);
 
     /** Throws for sections that couple membrane and bending. */
     void
