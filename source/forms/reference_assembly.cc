@@ -3,15 +3,13 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/discretization.h>
-#include <nacre/discretization/membrane_tying.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/reference_assembly.h>
+#include <nacre/forms/reference_strains.h>
 #include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/shell_strain.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/loads.h>
-
-#include <deal.II/base/qprojector.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -24,94 +22,16 @@
 
 namespace Nacre
 {
+  using namespace ReferenceStrains;
+
   namespace
   {
-    /** The displacement: components 0, 1, 2 of the FESystem. */
-    const FEValuesExtractors::Vector displacement(0);
-
     const UpdateFlags geometry_flags =
       update_quadrature_points | update_jacobians | update_jacobian_grads;
 
     const UpdateFlags shape_flags = update_values | update_gradients |
                                     update_hessians | update_JxW_values |
                                     geometry_flags;
-
-    /** a_alpha, a^alpha, t0 and phi0,alpha beta: (5), (11), (12). */
-    SurfaceFrame<>
-    frame_at(const FEValuesBase<dim, spacedim> &fe_values, const unsigned int q)
-    {
-      const auto         &jacobian   = fe_values.jacobian(q);
-      const auto         &derivative = fe_values.jacobian_grad(q);
-      Tensor<1, spacedim> a_1, a_2;
-      std::array<Tensor<1, spacedim>, 3> phi_ab;
-      for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          a_1[c]       = jacobian[c][0];
-          a_2[c]       = jacobian[c][1];
-          phi_ab[0][c] = derivative[c][0][0];
-          phi_ab[1][c] = derivative[c][1][1];
-          phi_ab[2][c] = derivative[c][0][1];
-        }
-      return make_surface_frame(a_1, a_2, phi_ab);
-    }
-
-    SectionPoint
-    section_point(const FEValuesBase<dim, spacedim> &fe_values,
-                  const unsigned int                 q)
-    {
-      return SectionPoint(fe_values.quadrature_point(q),
-                          fe_values.get_cell()->material_id());
-    }
-
-    /** (e_11, e_22, 2 e_12), e_ab = a_a . e . a_b, of a tensor in space. */
-    Voigt<>
-    covariant(const Tensor<2, spacedim> &e, const SurfaceFrame<> &frame)
-    {
-      const auto &a = frame.a_cov;
-      Voigt<>     components;
-      components[0] = a[0] * (e * a[0]);
-      components[1] = a[1] * (e * a[1]);
-      components[2] = a[0] * (e * a[1]) + a[1] * (e * a[0]);
-      return components;
-    }
-
-    /**
-     * The membrane strain (3), eps = 1/2 (grad u + grad u^T) between tangent
-     * vectors.
-     */
-    Voigt<>
-    membrane_strain(const FEValuesBase<dim, spacedim> &fe_values,
-                    const SurfaceFrame<>              &frame,
-                    const unsigned int                 i,
-                    const unsigned int                 q)
-    {
-      return covariant(fe_values[displacement].gradient(i, q), frame);
-    }
-
-    /**
-     * The bending strain (4), rho = -t0 . hess u: deal.II's Hessian of a
-     * function on a surface is its covariant second derivative.
-     */
-    Voigt<>
-    bending_strain(const FEValuesBase<dim, spacedim> &fe_values,
-                   const SurfaceFrame<>              &frame,
-                   const unsigned int                 i,
-                   const unsigned int                 q)
-    {
-      return covariant(-frame.t0 * fe_values[displacement].hessian(i, q),
-                       frame);
-    }
-
-    /** theta = t0 . (grad u . nu), the rotation about an edge. */
-    double
-    rotation(const FEValuesBase<dim, spacedim> &fe_values,
-             const Tensor<1, spacedim>         &t0,
-             const Tensor<1, spacedim>         &nu,
-             const unsigned int                 i,
-             const unsigned int                 q)
-    {
-      return t0 * (fe_values[displacement].gradient(i, q) * nu);
-    }
   } // namespace
 
 
@@ -232,37 +152,6 @@ namespace Nacre
         }
     }
 
-    /** What tied membrane strains are made of: [sample][dof]. */
-    std::vector<std::vector<double>>
-    sample_membrane_strain(const MembraneTying           &tying,
-                           const FEValues<dim, spacedim> &fe_values)
-    {
-      std::vector<std::vector<double>> values;
-      for (const auto &[point, direction] : tying.samples())
-        {
-          const auto    frame = frame_at(fe_values, point);
-          const Voigt<> d({direction[0], direction[1], direction[2]});
-          values.emplace_back(fe_values.dofs_per_cell);
-          for (const unsigned int i : fe_values.dof_indices())
-            values.back()[i] = d * membrane_strain(fe_values, frame, i, point);
-        }
-      return values;
-    }
-
-    /** The membrane strain at the point @p q, interpolated: [dof]. */
-    std::vector<Voigt<>>
-    tied_membrane_strain(const MembraneTying                    &tying,
-                         const std::vector<std::vector<double>> &samples,
-                         const unsigned int                      q)
-    {
-      std::vector<Voigt<>> strain(samples.front().size());
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[k, weight] : tying.weights(q, v))
-          for (unsigned int i = 0; i < strain.size(); ++i)
-            strain[i][v] += weight * samples[k][i];
-      return strain;
-    }
-
     /** Share of the full rule, min(1, h^2 / |K|), where rules are blended. */
     double
     full_share(const FEValues<dim, spacedim> &cell, const SectionLaw &section)
@@ -378,63 +267,6 @@ namespace Nacre
 
   namespace
   {
-    /** The tied membrane strain of a cell at the points of one of its edges. */
-    class TiedEdgeStrain
-    {
-    public:
-      /** @param samples on the cell, with update_gradients */
-      TiedEdgeStrain(
-        const Discretization                                  &discretization,
-        const SectionLaw                                      &section,
-        FEValues<dim, spacedim>                               &samples,
-        const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-        const unsigned int                                     face,
-        const unsigned int                                     subface)
-        : tying_(discretization.element(),
-                 unit_points(discretization, cell, face, subface))
-      {
-        if (!section.is_coupled())
-          return;
-        samples.reinit(cell);
-        samples_ = sample_membrane_strain(tying_, samples);
-      }
-
-      /** At the point @p q: [dof]. */
-      std::vector<Voigt<>>
-      at(const unsigned int q) const
-      {
-        return tied_membrane_strain(tying_, samples_, q);
-      }
-
-    private:
-      static std::vector<Point<dim>>
-      unit_points(const Discretization &discretization,
-                  const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-                  const unsigned int                                     face,
-                  const unsigned int subface)
-      {
-        const auto quadrature = discretization.element().edge_quadrature();
-        std::vector<Point<dim>> points(quadrature.size());
-        if (subface == numbers::invalid_unsigned_int)
-          QProjector<dim>::project_to_face(cell->reference_cell(),
-                                           quadrature,
-                                           face,
-                                           points);
-        else
-          QProjector<dim>::project_to_subface(cell->reference_cell(),
-                                              quadrature,
-                                              face,
-                                              subface,
-                                              points);
-        if (!cell->face_orientation(face))
-          std::reverse(points.begin(), points.end());
-        return points;
-      }
-
-      const MembraneTying              tying_;
-      std::vector<std::vector<double>> samples_;
-    };
-
     /** Rotation and moment of one side of an edge at a point, for each dof. */
     struct EdgeSide
     {

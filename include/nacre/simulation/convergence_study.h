@@ -30,9 +30,9 @@ namespace Nacre
   class ConvergenceStudy : public ParameterAcceptor
   {
   public:
-    explicit ConvergenceStudy(const MPI_Comm              communicator,
-                              std::unique_ptr<SectionLaw> section =
-                                std::make_unique<ShellSection>());
+    explicit ConvergenceStudy(
+      const MPI_Comm              communicator,
+      std::unique_ptr<SectionLaw> section = std::make_unique<ShellSection>());
 
     /**
      * Check the parameters, read before, against each other for every case;
