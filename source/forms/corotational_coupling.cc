@@ -5,20 +5,10 @@
 // and bending: n = A eps + B rho, m = B^T eps + D rho.
 
 #include <nacre/forms/corotational_kinematics.h>
+#include <nacre/mechanics/step_differences.h>
 
 namespace Nacre
 {
-  void
-  CorotationalKinematics::check_step_section() const
-  {
-    AssertThrow(!section_.is_coupled(),
-                ExcMessage("Analysis/Scheme: energy momentum: in co-rotational "
-                           "kinematics it takes no sections that couple "
-                           "membrane forces and bending, as stacks that aren't "
-                           "symmetric or have an offset; take another "
-                           "scheme."));
-  }
-
   void
   CorotationalKinematics::fill_strain_rows(const CellPoints &points)
   {
@@ -95,25 +85,52 @@ namespace Nacre
   void
   CorotationalKinematics::evaluate_edge_membrane(const ShellEdgeValues &edge)
   {
-    if (section_.is_coupled())
-      for (unsigned int s = 0; s < edge.n_sides(); ++s)
-        {
-          edge_membrane_[s].reinit_strains(EdgeSideTying(edge, s), edge_u_[s]);
-          edge_membrane_[s].clear_forces(edge.tying(s));
-        }
+    if (!section_.is_coupled())
+      return;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const EdgeSideTying values(edge, s);
+        edge_membrane_[s].reinit_strains(values, edge_u_[s]);
+        edge_membrane_[s].clear_forces(values.tying());
+        if (in_step_)
+          for (unsigned int end = 0; end < 2; ++end)
+            ends_edge_membrane_[end][s].reinit_strains(values,
+                                                       ends_edge_u_[end][s]);
+      }
+  }
+
+  std::array<Tensor<1, spacedim>, 2>
+  CorotationalKinematics::edge_step_vectors(
+    const ShellEdgeValues       &edge,
+    const unsigned int           side,
+    const MembraneTying::Sample &sample) const
+  {
+    const auto &frame = edge.tying_frames(side)[sample.point];
+    Voigt<>     strain;
+    for (const auto &end : ends_edge_membrane_)
+      strain +=
+        0.5 * CorotationalStrain::membrane(frame,
+                                           end[side].deformed(sample.point),
+                                           end[side].polar(sample.point));
+    return StepDifferences::stretch_vectors(frame,
+                                            edge_membrane_[side].deformed(
+                                              sample.point),
+                                            strain,
+                                            sample.direction);
   }
 
   void
   CorotationalKinematics::fill_edge_membrane_rows(const ShellEdgeValues &edge,
                                                   const unsigned int     side,
-                                                  const unsigned int     q)
+                                                  const unsigned int     q,
+                                                  const Voigt<>         &B_nu)
   {
-    const auto        &tying  = edge.tying(side);
-    const auto        &shapes = edge.tying_shapes();
-    const unsigned int n      = spacedim * shapes.n_nodes();
-    const auto        &B_nu   = edge_point_.side(side).hinge.coupling;
-    auto              &force  = membrane_force_row_[side];
-    auto              &moment = membrane_moment_row_[side];
+    const auto        &tying    = edge.tying(side);
+    const auto        &shapes   = edge.tying_shapes();
+    const auto        &membrane = edge_membrane_[side];
+    const unsigned int n        = spacedim * shapes.n_nodes();
+    auto              &force    = membrane_force_row_[side];
+    auto              &moment   = membrane_moment_row_[side];
     force.assign(n, 0.);
     moment.assign(n, 0.);
     std::vector<double> share(tying.samples().size());
@@ -122,13 +139,14 @@ namespace Nacre
         share[s] += B_nu[v] * weight;
     for (unsigned int s = 0; s < share.size(); ++s)
       {
-        const auto &[k, direction] = tying.samples()[s];
-        const auto vectors = edge_membrane_[side].sample_vectors(direction, k);
+        const auto &sample         = tying.samples()[s];
+        const auto &[k, direction] = sample;
+        const auto vectors = in_step_ ? edge_step_vectors(edge, side, sample) :
+                                        membrane.sample_vectors(direction, k);
         // Without the rotations' derivatives both are the same.
-        const auto derivatives =
-          is_consistent() ?
-            edge_membrane_[side].sample_derivatives(direction, k) :
-            vectors;
+        const auto derivatives = is_consistent() && !in_step_ ?
+                                   membrane.sample_derivatives(direction, k) :
+                                   vectors;
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           {
             const auto &dN = shapes.gradient(k, a);
@@ -145,17 +163,25 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_edge_membrane_point(const ShellEdgeValues &edge,
+  CorotationalKinematics::add_edge_membrane_force(const ShellEdgeValues &edge,
                                                   const unsigned int     side,
-                                                  const unsigned int     q,
-                                                  LocalTerms            &terms)
+                                                  const double moment_force,
+                                                  LocalTerms  &terms) const
   {
-    const auto          &point = edge_point_.side(side);
-    std::vector<Voigt<>> n(q + 1);
-    n[q] = edge_point_.moment_force(side) * point.hinge.coupling;
-    edge_membrane_[side].add_point_forces(edge.tying(side), n);
-    if (!terms.wants_tangent)
-      return;
+    const auto &row = membrane_force_row_[side];
+    for (unsigned int a = 0; a < row.size() / spacedim; ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        terms.residual[edge.dof(side, a, c)] +=
+          moment_force * row[spacedim * a + c];
+  }
+
+  void
+  CorotationalKinematics::add_edge_membrane_tangent(const ShellEdgeValues &edge,
+                                                    const unsigned int     side,
+                                                    const unsigned int     q,
+                                                    LocalTerms &terms)
+  {
+    const auto  &point  = edge_point_.side(side);
     const auto  &row    = membrane_force_row_[side];
     const double factor = point.mean_factor * edge_point_.fluxes().symmetry;
     for (unsigned int a = 0; a < row.size() / spacedim; ++a)
@@ -166,21 +192,20 @@ namespace Nacre
           for (unsigned int j = 0; j < jump_row_.size(); ++j)
             terms.tangent(i, j) += f * jump_row_[j];
         }
+    edge_membrane_[side].add_point_force(edge.tying(side),
+                                         q,
+                                         edge_point_.moment_force(side) *
+                                           point.hinge.coupling);
   }
 
   void
-  CorotationalKinematics::add_edge_membrane_terms(const ShellEdgeValues &edge,
-                                                  const unsigned int     side,
-                                                  LocalTerms            &terms)
+  CorotationalKinematics::add_edge_turn_tangent(const ShellEdgeValues &edge,
+                                                const unsigned int     side,
+                                                LocalTerms            &terms)
   {
-    const EdgeSideTying values(edge, side);
-    const auto         &shapes   = values.tying_shapes();
-    const auto         &membrane = edge_membrane_[side];
-    force_.assign(shapes.n_nodes(), Tensor<1, spacedim>());
-    membrane.add_force(values, force_);
-    add_edge_residual(edge, side, terms);
-    if (!terms.wants_tangent || !is_consistent())
-      return;
+    const auto &shapes   = edge.tying_shapes();
+    auto       &membrane = edge_membrane_[side];
+    membrane.set_resultants(edge.tying(side));
     for (unsigned int k = 0; k < shapes.n_points(); ++k)
       {
         const auto X = membrane.turn_derivative(k);

@@ -49,6 +49,7 @@ namespace Nacre
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_edge_nodes(edge, s, u, edge_u_[s]);
+    in_step_ = false;
     evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
       reinit_edge_rows(edge);
@@ -61,32 +62,48 @@ namespace Nacre
                            rotation[q],
                            edge_u_,
                            edge_membrane_);
-        if (section_.is_coupled())
-          for (unsigned int s = 0; s < edge.n_sides(); ++s)
-            fill_edge_membrane_rows(edge, s, q);
         terms.energies.edge += edge_point_.energy();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
           {
             force_.assign(n_nodes, Tensor<1, spacedim>());
             edge_point_.add_force(s, force_);
             add_edge_residual(edge, s, terms);
+            if (section_.is_coupled())
+              {
+                fill_edge_membrane_rows(edge,
+                                        s,
+                                        q,
+                                        edge_point_.side(s).hinge.coupling);
+                add_edge_membrane_force(edge,
+                                        s,
+                                        edge_point_.moment_force(s),
+                                        terms);
+              }
           }
         if (terms.wants_tangent)
-          {
-            fill_edge_derivatives(edge, q);
-            for (unsigned int s = 0; s < edge.n_sides(); ++s)
-              fill_edge_rows(s, q);
-          }
-        if (section_.is_coupled())
-          for (unsigned int s = 0; s < edge.n_sides(); ++s)
-            add_edge_membrane_point(edge, s, q, terms);
+          add_edge_point_rows(edge, q, terms);
       }
-    if (section_.is_coupled())
-      for (unsigned int s = 0; s < edge.n_sides(); ++s)
-        add_edge_membrane_terms(edge, s, terms);
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
-        add_edge_tangent(edge, s, terms);
+        {
+          add_edge_tangent(edge, s, terms);
+          if (section_.is_coupled() && is_consistent())
+            add_edge_turn_tangent(edge, s, terms);
+        }
+  }
+
+  void
+  CorotationalKinematics::add_edge_point_rows(const ShellEdgeValues &edge,
+                                              const unsigned int     q,
+                                              LocalTerms            &terms)
+  {
+    fill_edge_derivatives(edge, q);
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        fill_edge_rows(s, q);
+        if (section_.is_coupled())
+          add_edge_membrane_tangent(edge, s, q, terms);
+      }
   }
 
   double
@@ -95,6 +112,7 @@ namespace Nacre
                                        const PrescribedRotation &rotation,
                                        const Vector<double>     &u)
   {
+    in_step_ = false;
     extract_edge_nodes(edge, 0, u, edge_u_[0]);
     evaluate_edge_membrane(edge);
     edge_point_
@@ -149,7 +167,7 @@ namespace Nacre
     const Vector<double>                  &u_end,
     LocalTerms                            &terms)
   {
-    check_step_section();
+    in_step_                   = true;
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
@@ -159,6 +177,7 @@ namespace Nacre
         for (unsigned int a = 0; a < n_nodes; ++a)
           edge_u_[s][a] = 0.5 * (ends_edge_u_[0][s][a] + ends_edge_u_[1][s][a]);
       }
+    evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
       reinit_edge_rows(edge);
     auto &[start, end] = ends_edge_point_;
@@ -166,16 +185,23 @@ namespace Nacre
       {
         const std::array<PrescribedRotation, 2> rotation = {
           {rotation_start[q], rotation_end[q]}};
-        start.reinit(edge, q, section_, penalty, rotation[0], ends_edge_u_[0]);
-        end.reinit(edge, q, section_, penalty, rotation[1], ends_edge_u_[1]);
+        start.reinit(edge,
+                     q,
+                     section_,
+                     penalty,
+                     rotation[0],
+                     ends_edge_u_[0],
+                     ends_edge_membrane_[0]);
+        end.reinit(edge,
+                   q,
+                   section_,
+                   penalty,
+                   rotation[1],
+                   ends_edge_u_[1],
+                   ends_edge_membrane_[1]);
         edge_step_.reinit(edge, q, start, end, rotation[0], rotation[1]);
         terms.rotation_work += edge_step_.rotation_work();
-        for (unsigned int s = 0; s < edge.n_sides(); ++s)
-          {
-            force_.assign(n_nodes, Tensor<1, spacedim>());
-            edge_step_.add_force(edge, q, s, force_);
-            add_edge_residual(edge, s, terms);
-          }
+        add_edge_step_forces(edge, q, terms);
         if (!terms.wants_tangent)
           continue;
         edge_point_.reinit(edge,
@@ -183,15 +209,37 @@ namespace Nacre
                            section_,
                            penalty,
                            mean_rotation(rotation[0], rotation[1]),
-                           edge_u_);
+                           edge_u_,
+                           edge_membrane_);
         edge_point_.take_mean_strains(start, end);
-        fill_edge_derivatives(edge, q);
-        for (unsigned int s = 0; s < edge.n_sides(); ++s)
-          fill_edge_rows(s, q);
+        add_edge_point_rows(edge, q, terms);
       }
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
         add_edge_tangent(edge, s, terms);
+  }
+
+  void
+  CorotationalKinematics::add_edge_step_forces(const ShellEdgeValues &edge,
+                                               const unsigned int     q,
+                                               LocalTerms            &terms)
+  {
+    const auto &[start, end] = ends_edge_point_;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        force_.assign(edge.shapes(s).n_nodes(), Tensor<1, spacedim>());
+        edge_step_.add_force(edge, q, s, force_);
+        add_edge_residual(edge, s, terms);
+        if (section_.is_coupled())
+          {
+            fill_edge_membrane_rows(edge, s, q, start.side(s).hinge.coupling);
+            add_edge_membrane_force(edge,
+                                    s,
+                                    0.5 * (start.moment_force(s) +
+                                           end.moment_force(s)),
+                                    terms);
+          }
+      }
   }
 
   namespace

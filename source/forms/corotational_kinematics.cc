@@ -113,7 +113,6 @@ namespace Nacre
     const Vector<double>                              &u_end,
     LocalTerms                                        &terms)
   {
-    check_step_section();
     in_step_ = true;
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
@@ -170,9 +169,30 @@ namespace Nacre
     points.membrane_stiffness =
       membrane_stiffness(points.values, points.stiffness.membrane);
     membrane_.reinit(points.values, points.membrane_stiffness, u_);
-    if (in_step_ || &points != &full_points_)
+    if (in_step_)
+      {
+        for (unsigned int end = 0; end < 2; ++end)
+          ends_membrane_[end].reinit(points.values,
+                                     points.membrane_stiffness,
+                                     ends_u_[end]);
+        membrane_.take_mean_strains(points.values,
+                                    points.membrane_stiffness,
+                                    ends_membrane_[0],
+                                    ends_membrane_[1]);
+      }
+    // Reduced points are of the membrane strain alone.
+    if (&points != &full_points_)
       return;
-    bending_.reinit(points.values, points.stiffness.bending, u_);
+    if (in_step_)
+      {
+        for (unsigned int end = 0; end < 2; ++end)
+          ends_bending_[end].reinit(points.values,
+                                    points.stiffness.bending,
+                                    ends_u_[end]);
+        bending_.take_means(ends_bending_[0], ends_bending_[1]);
+      }
+    else
+      bending_.reinit(points.values, points.stiffness.bending, u_);
     if (!points.stiffness.coupling.empty())
       bending_.couple(points.values.tying(),
                       points.stiffness.coupling,
@@ -222,14 +242,6 @@ namespace Nacre
   {
     const auto &values  = points.values;
     const auto &samples = values.tying().samples();
-    for (unsigned int end = 0; end < 2; ++end)
-      ends_membrane_[end].reinit(values,
-                                 points.membrane_stiffness,
-                                 ends_u_[end]);
-    membrane_.take_mean_strains(values,
-                                points.membrane_stiffness,
-                                ends_membrane_[0],
-                                ends_membrane_[1]);
     force_vectors_.resize(samples.size());
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
@@ -260,9 +272,6 @@ namespace Nacre
   CorotationalKinematics::add_bending_step_force(const CellPoints &points)
   {
     const auto &values = points.values;
-    for (unsigned int end = 0; end < 2; ++end)
-      ends_bending_[end].reinit(values, points.stiffness.bending, ends_u_[end]);
-    bending_.take_means(ends_bending_[0], ends_bending_[1]);
     for (unsigned int q = 0; q < values.n_points(); ++q)
       for (unsigned int a = 0; a < force_.size(); ++a)
         {

@@ -7,6 +7,7 @@
 
 #include "laminate_mesh.h"
 #include "laminate_parameters.h"
+#include <nacre/forms/mass_terms.h>
 
 using namespace Tests;
 
@@ -131,6 +132,69 @@ test_element(const std::string &name, const Mesh &mesh, const Element &element)
   check_below(full_name + "tangent by differences", error / largest, 1e-8);
 }
 
+/**
+ * The energy-momentum forces of a large step do the work that the strain energy
+ * changes by; the work on a rigid translation is zero, and on the rotation
+ * about the mean positions, v = axis x (x + u_mean).
+ */
+void
+test_step(const std::string &name, const Mesh &mesh, const Element &element)
+{
+  const std::string full_name = name + ", " + label(element) + ", step: ";
+  const Shell       shell(mesh, element, KinematicsModel::corotational);
+  const auto       &discretization = *shell.discretization;
+  const auto     u_start = interpolate(discretization, [](const Point<3> &x) {
+    return 0.2 * some_field(x);
+  });
+  const auto     u_end   = interpolate(discretization, [](const Point<3> &x) {
+    return rigid_motion(x) - 0.3 * some_field(x);
+  });
+  TrilinosVector mean(u_start), change(u_end), force(u_start);
+  mean.sadd(0.5, 0.5, u_end);
+  change -= u_start;
+  const MassTerms mass(discretization);
+  TrilinosVector  zero(u_start);
+  zero = 0.;
+  const StepStart start{u_start, {}};
+  const Inertia   inertia{mass, zero, 0., &start};
+  shell.shell_operator.residual(mean, force, &inertia);
+  const double U_start = shell.shell_operator.energies(u_start).total();
+  const double U_end   = shell.shell_operator.energies(u_end).total();
+  check_below(full_name + "work",
+              std::abs(force * change - (U_end - U_start)) / (U_start + U_end),
+              1e-12);
+  const auto translation = interpolate(discretization, [](const Point<3> &) {
+    return Vector3({1., -2., 0.5});
+  });
+  check_below(full_name + "resultant",
+              std::abs(force * translation) / force.l1_norm(),
+              1e-13);
+  // A linear map of the nodes' positions
+  TrilinosVector rotation(mean);
+  rotation.add(1., interpolate(discretization, [](const Point<3> &x) {
+                 return Vector3(x);
+               }));
+  std::vector<types::global_dof_index> dofs(discretization.node_dofs().size());
+  TrilinosVector                       turned(rotation);
+  for (const auto &cell : discretization.dof_handler().active_cell_iterators())
+    {
+      cell->get_dof_indices(dofs);
+      for (unsigned int a = 0; a < dofs.size() / 3; ++a)
+        {
+          Vector3 x;
+          for (unsigned int c = 0; c < 3; ++c)
+            x[c] = rotation(dofs[discretization.node_dofs()[3 * a + c]]);
+          const auto v = cross_product_3d(Vector3({1., -2., 0.5}), x);
+          for (unsigned int c = 0; c < 3; ++c)
+            turned(dofs[discretization.node_dofs()[3 * a + c]]) = v[c];
+        }
+    }
+  turned.compress(VectorOperation::insert);
+  check_below(full_name + "moment",
+              std::abs(force * turned) / force.l1_norm(),
+              1e-12);
+}
+
 void
 test_orientation(const Element &element)
 {
@@ -166,5 +230,8 @@ main(int argc, char *argv[])
   std::swap(hanging.cells[2][1], hanging.cells[2][2]);
   test_element("hanging", hanging, lagrange(2));
   test_orientation(lagrange(2));
+  for (const auto &element : {lagrange(2), lagrange(3), serendipity, triangle})
+    test_step("curved", make_mesh(bend), element);
+  test_step("creased", make_mesh(fold), lagrange(2));
   return n_failures > 0;
 }

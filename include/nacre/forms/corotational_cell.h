@@ -116,7 +116,6 @@ namespace Nacre
     clear_forces(const MembraneTying &tying)
     {
       forces_.assign(tying.samples().size(), 0.);
-      set_resultants(tying);
     }
 
     /** The strain at the point @p q, interpolated from the samples. */
@@ -131,18 +130,29 @@ namespace Nacre
     }
 
     /**
-     * Add the membrane forces @p n at the points, area and weight included, to
-     * those of the samples.
+     * Add the membrane force @p n at the point @p q, area and weight included,
+     * to those of the samples; set_resultants() follows the last one.
      */
     void
-    add_point_forces(const MembraneTying              &tying,
-                     const std::vector<Voigt<Number>> &n)
+    add_point_force(const MembraneTying &tying,
+                    const unsigned int   q,
+                    const Voigt<Number> &n)
     {
-      for (unsigned int q = 0; q < n.size(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const auto &[s, weight] : tying.weights(q, v))
+          forces_[s] += weight * n[v];
+    }
+
+    /** From the forces of the samples to those of the tying points. */
+    void
+    set_resultants(const MembraneTying &tying)
+    {
+      const auto &samples = tying.samples();
+      resultants_.assign(tying.points().size(), Voigt<Number>());
+      for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int v = 0; v < 3; ++v)
-          for (const auto &[s, weight] : tying.weights(q, v))
-            forces_[s] += weight * n[q][v];
-      set_resultants(tying);
+          resultants_[samples[s].point][v] +=
+            samples[s].direction[v] * forces_[s];
     }
 
     /**
@@ -205,9 +215,8 @@ namespace Nacre
     /**
      * Add the internal force of each node, R B^T D B (R^T x - X0), (48).
      */
-    template <typename Values>
     void
-    add_force(const Values &values, NodeVectors<Number> &force) const
+    add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
     {
       for (unsigned int k = 0; k < polar_.size(); ++k)
         {
@@ -302,17 +311,6 @@ namespace Nacre
       set_resultants(tying);
     }
 
-    void
-    set_resultants(const MembraneTying &tying)
-    {
-      const auto &samples = tying.samples();
-      resultants_.assign(tying.points().size(), Voigt<Number>());
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          resultants_[samples[s].point][v] +=
-            samples[s].direction[v] * forces_[s];
-    }
-
     /** By tying point. */
     std::vector<SurfaceFrame<Number>>  deformed_;
     std::vector<PolarRotation<Number>> polar_;
@@ -392,14 +390,13 @@ namespace Nacre
            const std::vector<VoigtMatrix<>> &coupling,
            CorotationalMembrane<Number>     &membrane)
     {
-      std::vector<Voigt<Number>> n(moments_.size());
       for (unsigned int q = 0; q < moments_.size(); ++q)
         {
-          n[q] = coupling[q] * strains_[q];
+          membrane.add_point_force(tying, q, coupling[q] * strains_[q]);
           moments_[q] +=
             transpose(coupling[q]) * membrane.tied_strain(tying, q);
         }
-      membrane.add_point_forces(tying, n);
+      membrane.set_resultants(tying);
     }
 
     /**

@@ -197,39 +197,61 @@ namespace Nacre
     void
     add_cell_tangent(LocalTerms &terms);
 
-    /** Set edge_membrane_ of sections with coupling. */
+    /** @name The membrane strain in m_nn, for sections with coupling */
+    //@{
+    /** Set edge_membrane_, in a step those of its ends, too. */
     void
     evaluate_edge_membrane(const ShellEdgeValues &edge);
+
+    /** The vectors of a sample's difference in a step, StepDifferences. */
+    std::array<Tensor<1, spacedim>, 2>
+    edge_step_vectors(const ShellEdgeValues       &edge,
+                      const unsigned int           side,
+                      const MembraneTying::Sample &sample) const;
 
     /** Set membrane_force_row_ and membrane_moment_row_ of a side. */
     void
     fill_edge_membrane_rows(const ShellEdgeValues &edge,
                             const unsigned int     side,
-                            const unsigned int     q);
-
-    /**
-     * What the membrane strain of a side adds at the point of edge_point_: the
-     * forces of the samples, and the tangent but for their turning.
-     */
-    void
-    add_edge_membrane_point(const ShellEdgeValues &edge,
-                            const unsigned int     side,
                             const unsigned int     q,
-                            LocalTerms            &terms);
+                            const Voigt<>         &B_nu);
 
-    /** The residual of all points, and how the samples' forces turn. */
+    /** Add the row's force; @p moment_force is conjugate to m_nn. */
     void
-    add_edge_membrane_terms(const ShellEdgeValues &edge,
+    add_edge_membrane_force(const ShellEdgeValues &edge,
                             const unsigned int     side,
-                            LocalTerms            &terms);
+                            const double           moment_force,
+                            LocalTerms            &terms) const;
 
-    /** Throws for sections that couple membrane and bending. */
+    /** The tangent of the point of edge_point_, but for how the row turns. */
     void
-    check_step_section() const;
+    add_edge_membrane_tangent(const ShellEdgeValues &edge,
+                              const unsigned int     side,
+                              const unsigned int     q,
+                              LocalTerms            &terms);
+
+    /** How the forces of all points turn. */
+    void
+    add_edge_turn_tangent(const ShellEdgeValues &edge,
+                          const unsigned int     side,
+                          LocalTerms            &terms);
+    //@}
 
     /** Set omega_, jump_row_, mean_row_ of the point of edge_point_. */
     void
     fill_edge_derivatives(const ShellEdgeValues &edge, const unsigned int q);
+
+    /** Residual of the point of ends_edge_point_ and edge_step_. */
+    void
+    add_edge_step_forces(const ShellEdgeValues &edge,
+                         const unsigned int     q,
+                         LocalTerms            &terms);
+
+    /** Rows of the tangent of the point of edge_point_, on all sides. */
+    void
+    add_edge_point_rows(const ShellEdgeValues &edge,
+                        const unsigned int     q,
+                        LocalTerms            &terms);
 
     /** The two rows of the side @p s at the point @p q. */
     void
@@ -297,8 +319,11 @@ namespace Nacre
      * a unit of m_nn and the derivative of m_nn, [3 a + c].
      */
     std::array<CorotationalMembrane<double>, 2> edge_membrane_;
-    std::array<std::vector<double>, 2>          membrane_force_row_;
-    std::array<std::vector<double>, 2>          membrane_moment_row_;
+    /** [end of the step][side]. */
+    std::array<std::array<CorotationalMembrane<double>, 2>, 2>
+                                       ends_edge_membrane_;
+    std::array<std::vector<double>, 2> membrane_force_row_;
+    std::array<std::vector<double>, 2> membrane_moment_row_;
 
     CorotationalEdgePoint<double>      edge_point_;
     std::array<NodeVectors<double>, 2> edge_u_;
