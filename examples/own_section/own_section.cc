@@ -30,7 +30,7 @@ namespace OwnSection
    * H_n = h Q, H_m = h^3/12 Q.
    */
   class OrthotropicSection
-    : public SectionLaw
+    : public LinearSectionLaw
     , public ParameterAcceptor
   {
   public:

@@ -186,8 +186,15 @@ namespace Nacre
 
   ShellEdgeValues::Table::Table(const Discretization          &discretization,
                                 const std::vector<Point<dim>> &points)
-    : shapes(discretization.scalar_fe(), points)
+    : points(points)
+    , shapes(discretization.scalar_fe(), points)
     , geometry(discretization.geometry_fe(), points)
+  {}
+
+  ShellEdgeValues::TyingTable::TyingTable(const Discretization &discretization,
+                                          const MembraneTying  &tying)
+    : shapes(discretization.scalar_fe(), tying.points())
+    , geometry(discretization.geometry_fe(), tying.points())
   {}
 
   ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
@@ -303,10 +310,12 @@ namespace Nacre
     const bool         whole = (subface == numbers::invalid_unsigned_int);
     const unsigned int kind =
       whole ? (cell->face_orientation(face) ? 2 : 3) : subface;
-    const Table &points   = table(face, kind);
-    auto        &geometry = geometry_[side];
-    table_of_side_[side]  = {face, kind};
-    material_ids_[side]   = cell->material_id();
+    const Table &points          = table(face, kind);
+    auto        &geometry        = geometry_[side];
+    table_of_side_[side]         = {face, kind};
+    material_ids_[side]          = cell->material_id();
+    cells_[side]                 = cell;
+    tied_sides_[side].has_frames = tied_sides_[side].has_rows = false;
     points.geometry.evaluate(discretization_.geometry_nodes(cell), geometry);
 
     const Tensor<1, dim> along = directions_[face];
@@ -357,6 +366,83 @@ namespace Nacre
           joint[local_to_node_[i]] = dof_indices_.size();
           dof_indices_.push_back(cell_dofs_[1][i]);
         }
+  }
+
+  const MembraneTying &
+  ShellEdgeValues::tying(const unsigned int side) const
+  {
+    const auto [face, kind] = table_of_side_[side];
+    const auto found        = tyings_.find(table_of_side_[side]);
+    if (found != tyings_.end())
+      return found->second;
+    const MembraneTying &tying = tyings_
+                                   .try_emplace(table_of_side_[side],
+                                                discretization_.element(),
+                                                tables_[face][kind]->points)
+                                   .first->second;
+    // The samples are the same for all points of a cell.
+    if (!tying_table_)
+      tying_table_.emplace(discretization_, tying);
+    return tying;
+  }
+
+  const std::vector<SurfaceFrame<>> &
+  ShellEdgeValues::tying_frames(const unsigned int side) const
+  {
+    TiedSide &tied = tied_sides_[side];
+    if (tied.has_frames)
+      return tied.frames;
+    tied.has_frames = true;
+    tied.frames.resize(tying(side).points().size());
+    tying_table_->geometry.evaluate(discretization_.geometry_nodes(
+                                      cells_[side]),
+                                    tied.geometry);
+    for (unsigned int k = 0; k < tied.frames.size(); ++k)
+      tied.frames[k] = make_surface_frame(tied.geometry.tangent(k, 0),
+                                          tied.geometry.tangent(k, 1),
+                                          {});
+    return tied.frames;
+  }
+
+  const FullMatrix<double> &
+  ShellEdgeValues::tied_membrane_rows(const unsigned int side) const
+  {
+    TiedSide &tied = tied_sides_[side];
+    if (tied.has_rows)
+      return tied.rows;
+    tied.has_rows              = true;
+    const auto        &frames  = tying_frames(side);
+    const auto        &samples = tying(side).samples();
+    const auto        &shapes  = tying_table_->shapes;
+    const unsigned int n       = spacedim * shapes.n_nodes();
+    tied.samples.reinit(samples.size(), n, true);
+    for (unsigned int s = 0; s < samples.size(); ++s)
+      {
+        const auto &[point, direction] = samples[s];
+        const auto &[a_1, a_2]         = frames[point].a_cov;
+        // As in ShellCellValues::fill_tied_membrane_rows()
+        const auto g_1 = direction[0] * a_1 + direction[2] * a_2;
+        const auto g_2 = direction[2] * a_1 + direction[1] * a_2;
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          {
+            const auto &dN = shapes.gradient(point, a);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              tied.samples(s, spacedim * a + c) =
+                dN[0] * g_1[c] + dN[1] * g_2[c];
+          }
+      }
+    tied.rows.reinit(3 * n_points(), n, true);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        {
+          const auto &weights = tying(side).weights(q, v);
+          combine(&tied.samples(0, 0),
+                  weights.data(),
+                  weights.size(),
+                  n,
+                  &tied.rows(3 * q + v, 0));
+        }
+    return tied.rows;
   }
 
   double

@@ -37,12 +37,16 @@ namespace Nacre
   {
     membrane.resize(values.n_points());
     bending.resize(values.n_points());
+    const bool is_coupled = section.is_coupled();
+    coupling.resize(is_coupled ? values.n_points() : 0);
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
         const auto stiffness =
           section.stiffness(values.frame(q), values.point(q));
         membrane[q] = membrane_factor * values.JxW(q) * stiffness.membrane;
         bending[q]  = values.JxW(q) * stiffness.bending;
+        if (is_coupled)
+          coupling[q] = membrane_factor * values.JxW(q) * stiffness.coupling;
       }
   }
 

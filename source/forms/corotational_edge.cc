@@ -60,28 +60,61 @@ namespace Nacre
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_edge_nodes(edge, s, u, edge_u_[s]);
+    in_step_ = false;
+    evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
       reinit_edge_rows(edge);
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        edge_point_.reinit(edge, q, section_, penalty, rotation[q], edge_u_);
+        edge_point_.reinit(edge,
+                           q,
+                           section_,
+                           penalty,
+                           rotation[q],
+                           edge_u_,
+                           edge_membrane_);
         terms.energies.edge += edge_point_.energy();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
           {
             force_.assign(n_nodes, Tensor<1, spacedim>());
             edge_point_.add_force(s, force_);
             add_edge_residual(edge, s, terms);
+            if (section_.is_coupled())
+              {
+                fill_edge_membrane_rows(edge,
+                                        s,
+                                        q,
+                                        edge_point_.side(s).hinge.coupling);
+                add_edge_membrane_force(edge,
+                                        s,
+                                        edge_point_.moment_force(s),
+                                        terms);
+              }
           }
         if (terms.wants_tangent)
-          {
-            fill_edge_derivatives(edge, q);
-            for (unsigned int s = 0; s < edge.n_sides(); ++s)
-              fill_edge_rows(s, q);
-          }
+          add_edge_point_rows(edge, q, terms);
       }
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
-        add_edge_tangent(edge, s, terms);
+        {
+          add_edge_tangent(edge, s, terms);
+          if (section_.is_coupled() && is_consistent())
+            add_edge_turn_tangent(edge, s, terms);
+        }
+  }
+
+  void
+  CorotationalKinematics::add_edge_point_rows(const ShellEdgeValues &edge,
+                                              const unsigned int     q,
+                                              LocalTerms            &terms)
+  {
+    fill_edge_derivatives(edge, q);
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        fill_edge_rows(s, q);
+        if (section_.is_coupled())
+          add_edge_membrane_tangent(edge, s, q, terms);
+      }
   }
 
   double
@@ -90,8 +123,11 @@ namespace Nacre
                                        const PrescribedRotation &rotation,
                                        const Vector<double>     &u)
   {
+    in_step_ = false;
     extract_edge_nodes(edge, 0, u, edge_u_[0]);
-    edge_point_.reinit(edge, q, section_, 1., rotation, edge_u_);
+    evaluate_edge_membrane(edge);
+    edge_point_
+      .reinit(edge, q, section_, 1., rotation, edge_u_, edge_membrane_);
     const auto &side = edge_point_.side(0);
     return std::atan2(cross_product_3d(side.normal, side.deformed.t0).norm(),
                       side.normal * side.deformed.t0);
@@ -142,6 +178,7 @@ namespace Nacre
     const Vector<double>                  &u_end,
     LocalTerms                            &terms)
   {
+    in_step_                   = true;
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
@@ -151,6 +188,7 @@ namespace Nacre
         for (unsigned int a = 0; a < n_nodes; ++a)
           edge_u_[s][a] = 0.5 * (ends_edge_u_[0][s][a] + ends_edge_u_[1][s][a]);
       }
+    evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
       reinit_edge_rows(edge);
     auto &[start, end] = ends_edge_point_;
@@ -158,16 +196,23 @@ namespace Nacre
       {
         const std::array<PrescribedRotation, 2> rotation = {
           {rotation_start[q], rotation_end[q]}};
-        start.reinit(edge, q, section_, penalty, rotation[0], ends_edge_u_[0]);
-        end.reinit(edge, q, section_, penalty, rotation[1], ends_edge_u_[1]);
+        start.reinit(edge,
+                     q,
+                     section_,
+                     penalty,
+                     rotation[0],
+                     ends_edge_u_[0],
+                     ends_edge_membrane_[0]);
+        end.reinit(edge,
+                   q,
+                   section_,
+                   penalty,
+                   rotation[1],
+                   ends_edge_u_[1],
+                   ends_edge_membrane_[1]);
         edge_step_.reinit(edge, q, start, end, rotation[0], rotation[1]);
         terms.rotation_work += edge_step_.rotation_work();
-        for (unsigned int s = 0; s < edge.n_sides(); ++s)
-          {
-            force_.assign(n_nodes, Tensor<1, spacedim>());
-            edge_step_.add_force(edge, q, s, force_);
-            add_edge_residual(edge, s, terms);
-          }
+        add_edge_step_forces(edge, q, terms);
         if (!terms.wants_tangent)
           continue;
         edge_point_.reinit(edge,
@@ -175,15 +220,37 @@ namespace Nacre
                            section_,
                            penalty,
                            mean_rotation(rotation[0], rotation[1]),
-                           edge_u_);
+                           edge_u_,
+                           edge_membrane_);
         edge_point_.take_mean_strains(start, end);
-        fill_edge_derivatives(edge, q);
-        for (unsigned int s = 0; s < edge.n_sides(); ++s)
-          fill_edge_rows(s, q);
+        add_edge_point_rows(edge, q, terms);
       }
     if (terms.wants_tangent)
       for (unsigned int s = 0; s < edge.n_sides(); ++s)
         add_edge_tangent(edge, s, terms);
+  }
+
+  void
+  CorotationalKinematics::add_edge_step_forces(const ShellEdgeValues &edge,
+                                               const unsigned int     q,
+                                               LocalTerms            &terms)
+  {
+    const auto &[start, end] = ends_edge_point_;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        force_.assign(edge.shapes(s).n_nodes(), Tensor<1, spacedim>());
+        edge_step_.add_force(edge, q, s, force_);
+        add_edge_residual(edge, s, terms);
+        if (section_.is_coupled())
+          {
+            fill_edge_membrane_rows(edge, s, q, start.side(s).hinge.coupling);
+            add_edge_membrane_force(edge,
+                                    s,
+                                    0.5 * (start.moment_force(s) +
+                                           end.moment_force(s)),
+                                    terms);
+          }
+      }
   }
 
   namespace
@@ -293,6 +360,9 @@ namespace Nacre
                   side.jump_factor * side.hinge.rotation[b] * side.normal[c];
                 mean_row_[j] +=
                   side.mean_factor * side.hinge.moment[b] * side.normal[c];
+                if (section_.is_coupled())
+                  mean_row_[j] += side.mean_factor *
+                                  membrane_moment_row_[s][spacedim * b + c];
                 if (is_consistent())
                   {
                     // omega = spin t0[c] d + e columns[c]

@@ -33,18 +33,6 @@ namespace Nacre
           for (unsigned int c = 0; c < spacedim; ++c)
             nodes[a][c] = u[values.dof(a, c)];
     }
-
-    /**
-     * The vectors of which v,1 and v,2 make the sample's virtual strain
-     * direction . (q_1 . v,1, q_2 . v,2, q_1 . v,2 + q_2 . v,1).
-     */
-    std::array<Vector3, 2>
-    sample_vectors(const std::array<double, 3>  &direction,
-                   const std::array<Vector3, 2> &q)
-    {
-      return {{direction[0] * q[0] + direction[2] * q[1],
-               direction[1] * q[1] + direction[2] * q[0]}};
-    }
   } // namespace
 
   FullMatrix<double>
@@ -175,13 +163,47 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_membrane_terms(CellPoints        &points,
-                                             const unsigned int first_row,
-                                             LocalTerms        &terms)
+  CorotationalKinematics::evaluate_strains(CellPoints &points)
   {
     points.membrane_stiffness =
       membrane_stiffness(points.values, points.stiffness.membrane);
     membrane_.reinit(points.values, points.membrane_stiffness, u_);
+    if (in_step_)
+      {
+        for (unsigned int end = 0; end < 2; ++end)
+          ends_membrane_[end].reinit(points.values,
+                                     points.membrane_stiffness,
+                                     ends_u_[end]);
+        membrane_.take_mean_strains(points.values,
+                                    points.membrane_stiffness,
+                                    ends_membrane_[0],
+                                    ends_membrane_[1]);
+      }
+    // Reduced points are of the membrane strain alone.
+    if (&points != &full_points_)
+      return;
+    if (in_step_)
+      {
+        for (unsigned int end = 0; end < 2; ++end)
+          ends_bending_[end].reinit(points.values,
+                                    points.stiffness.bending,
+                                    ends_u_[end]);
+        bending_.take_means(ends_bending_[0], ends_bending_[1]);
+      }
+    else
+      bending_.reinit(points.values, points.stiffness.bending, u_);
+    if (!points.stiffness.coupling.empty())
+      bending_.couple(points.values.tying(),
+                      points.stiffness.coupling,
+                      membrane_);
+  }
+
+  void
+  CorotationalKinematics::add_membrane_terms(CellPoints        &points,
+                                             const unsigned int first_row,
+                                             LocalTerms        &terms)
+  {
+    evaluate_strains(points);
     if (in_step_)
       add_membrane_step_force(points);
     else
@@ -207,7 +229,6 @@ namespace Nacre
       add_bending_step_force(points);
     else
       {
-        bending_.reinit(points.values, points.stiffness.bending, u_);
         bending_.add_force(points.values, force_);
         terms.energies.bending += bending_.energy();
       }
@@ -220,14 +241,6 @@ namespace Nacre
   {
     const auto &values  = points.values;
     const auto &samples = values.tying().samples();
-    for (unsigned int end = 0; end < 2; ++end)
-      ends_membrane_[end].reinit(values,
-                                 points.membrane_stiffness,
-                                 ends_u_[end]);
-    membrane_.take_mean_strains(values,
-                                points.membrane_stiffness,
-                                ends_membrane_[0],
-                                ends_membrane_[1]);
     force_vectors_.resize(samples.size());
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
@@ -258,9 +271,6 @@ namespace Nacre
   CorotationalKinematics::add_bending_step_force(const CellPoints &points)
   {
     const auto &values = points.values;
-    for (unsigned int end = 0; end < 2; ++end)
-      ends_bending_[end].reinit(values, points.stiffness.bending, ends_u_[end]);
-    bending_.take_means(ends_bending_[0], ends_bending_[1]);
     for (unsigned int q = 0; q < values.n_points(); ++q)
       for (unsigned int a = 0; a < force_.size(); ++a)
         {
@@ -281,23 +291,10 @@ namespace Nacre
     for (unsigned int s = 0; s < samples.size(); ++s)
       {
         const auto &[k, direction] = samples[s];
-        const auto &polar          = membrane_.polar(k);
-        auto        vectors        = sample_vectors(direction, polar.q_cov);
-        force_vectors_[s]          = vectors;
-        if (is_consistent())
-          {
-            // dq_alpha = (t . omega) t x q_alpha + (...) t
-            const auto &deformed = membrane_.deformed(k);
-            const auto  turned =
-              sample_vectors(direction,
-                             {{cross_product_3d(deformed.t0, polar.q_cov[0]),
-                               cross_product_3d(deformed.t0, polar.q_cov[1])}});
-            const double spin_strain =
-              turned[0] * deformed.a_cov[0] + turned[1] * deformed.a_cov[1];
-            for (unsigned int g = 0; g < 2; ++g)
-              vectors[g] += spin_strain * polar.spin[g];
-          }
-        strain_vectors_[s] = vectors;
+        force_vectors_[s]          = membrane_.sample_vectors(direction, k);
+        strain_vectors_[s]         = is_consistent() ?
+                                       membrane_.sample_derivatives(direction, k) :
+                                       force_vectors_[s];
       }
   }
 
@@ -320,33 +317,12 @@ namespace Nacre
       }
     force_rows_.reinit(samples.size(), sample_rows_.n(), true);
     points.membrane_stiffness.mmult(force_rows_, sample_rows_);
+    if (!points.stiffness.coupling.empty())
+      {
+        fill_strain_rows(points);
+        add_coupling_to_force_rows(points);
+      }
   }
-
-  namespace
-  {
-    /**
-     * The part of dg_alpha = d(N^alpha beta q_beta) that comes from dq_beta,
-     * [alpha][g]: to be applied to d(phi,g).
-     */
-    std::array<std::array<Tensor<2, spacedim>, 2>, 2>
-    polar_derivative(const Voigt<>         &n,
-                     const SurfaceFrame<>  &deformed,
-                     const PolarRotation<> &polar)
-    {
-      const auto  &t       = deformed.t0;
-      const double N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
-      std::array<std::array<Tensor<2, spacedim>, 2>, 2> X;
-      for (unsigned int alpha = 0; alpha < 2; ++alpha)
-        {
-          const Vector3 r =
-            N[alpha][0] * polar.q_cov[0] + N[alpha][1] * polar.q_cov[1];
-          for (unsigned int g = 0; g < 2; ++g)
-            X[alpha][g] = (r * deformed.a_con[g]) * outer_product(t, t) +
-                          outer_product(cross_product_3d(t, r), polar.spin[g]);
-        }
-      return X;
-    }
-  } // namespace
 
   void
   CorotationalKinematics::fill_membrane_rows(const CellPoints  &points,
@@ -375,9 +351,7 @@ namespace Nacre
     // ... and turn.
     for (unsigned int k = 0; k < shapes.n_points(); ++k)
       {
-        const auto X = polar_derivative(membrane_.resultant(k),
-                                        membrane_.deformed(k),
-                                        membrane_.polar(k));
+        const auto X = membrane_.turn_derivative(k);
         for (unsigned int alpha = 0; alpha < 2; ++alpha)
           {
             const unsigned int row = points.membrane_rows[2 * k + alpha];
@@ -444,6 +418,8 @@ namespace Nacre
               }
           }
       }
+    if (!points.stiffness.coupling.empty())
+      add_coupling_to_bending_rows(points, first_row);
   }
 
   void

@@ -66,7 +66,7 @@ namespace Nacre
                 const SectionLaw      &section,
                 const Quadrature<dim> &quadrature)
         : section_(section)
-        , values_(discretization, quadrature, false)
+        , values_(discretization, quadrature, section.is_coupled())
         , edge_(discretization)
         , perimeter_(discretization)
         , discretization_(discretization)
@@ -95,8 +95,12 @@ namespace Nacre
                 double *const row = &moments_(face * n_points + q, 0);
                 for (unsigned int a = 0; a < hinge_.moment.size(); ++a)
                   for (unsigned int c = 0; c < spacedim; ++c)
-                    row[values_.dof(a, c)] =
-                      weight * hinge_.moment[a] * hinge_.t0[c];
+                    {
+                      double &entry = row[values_.dof(a, c)];
+                      entry         = weight * hinge_.moment[a] * hinge_.t0[c];
+                      if (!hinge_.membrane_moment.empty())
+                        entry += weight * hinge_.membrane_moment[a][c];
+                    }
               }
           }
         eigenvalue = largest_eigenvalue();
@@ -106,30 +110,43 @@ namespace Nacre
       double eigenvalue = 0.;
 
     private:
-      /** Set bending_ to K, the bending matrix of the cell. */
+      /** Set energy_ to K, the matrix of the second form of the pair. */
       void
-      fill_bending()
+      fill_energy()
       {
-        const auto &rows = values_.bending_rows();
-        stress_rows_.reinit(rows.m(), rows.n(), true);
-        for (unsigned int q = 0; q < values_.n_points(); ++q)
+        stiffness_.reinit(values_, section_, 1.);
+        const auto &rho = values_.bending_rows();
+        energy_.reinit(rho.n(), rho.n(), true);
+        add_rows(stiffness_.bending, rho, rho, false);
+        if (section_.is_coupled())
           {
-            const auto D =
-              values_.JxW(q) *
-              section_.stiffness(values_.frame(q), values_.point(q)).bending;
-            multiply_voigt_rows(D,
-                                &rows(3 * q, 0),
-                                rows.n(),
-                                &stress_rows_(3 * q, 0));
+            const auto &eps = values_.membrane_rows();
+            add_rows(stiffness_.membrane, eps, eps, true);
+            add_rows(stiffness_.coupling, eps, rho, true);
+            stress_rows_.Tmmult(energy_, eps, true);
           }
-        bending_.reinit(rows.n(), rows.n(), true);
-        rows.Tmmult(bending_, stress_rows_);
 
-        // Displacements without bending strain have no moment either: a tiny
-        // shift makes K regular and leaves the eigenvalues.
-        const double shift = 1e-11 * bending_.linfty_norm();
-        for (unsigned int i = 0; i < bending_.m(); ++i)
-          bending_(i, i) += shift;
+        // Displacements without strain have no moment either: a tiny shift
+        // makes K regular and leaves the eigenvalues.
+        const double shift = 1e-11 * energy_.linfty_norm();
+        for (unsigned int i = 0; i < energy_.m(); ++i)
+          energy_(i, i) += shift;
+      }
+
+      /** K = test^T H trial, or K += that; stress_rows_ is H trial. */
+      void
+      add_rows(const std::vector<VoigtMatrix<>> &H,
+               const FullMatrix<double>         &test,
+               const FullMatrix<double>         &trial,
+               const bool                        add)
+      {
+        stress_rows_.reinit(trial.m(), trial.n(), true);
+        for (unsigned int q = 0; q < values_.n_points(); ++q)
+          multiply_voigt_rows(H[q],
+                              &trial(3 * q, 0),
+                              trial.n(),
+                              &stress_rows_(3 * q, 0));
+        test.Tmmult(energy_, stress_rows_, add);
       }
 
       /**
@@ -139,20 +156,20 @@ namespace Nacre
       double
       largest_eigenvalue()
       {
-        fill_bending();
+        fill_energy();
         // LAPACK's matrices are the transposes of ours.
-        const types::blas_int n   = bending_.m();
+        const types::blas_int n   = energy_.m();
         const types::blas_int m   = moments_.m();
         const double          one = 1., zero = 0.;
         types::blas_int       info = 0;
-        potrf("L", &n, &bending_(0, 0), &n, &info);
+        potrf("L", &n, &energy_(0, 0), &n, &info);
         AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("potrf", info));
         trtrs("L",
               "N",
               "N",
               &n,
               &m,
-              &bending_(0, 0),
+              &energy_(0, 0),
               &n,
               &moments_(0, 0),
               &n,
@@ -192,8 +209,9 @@ namespace Nacre
       HingeSide             hinge_;
       const Discretization &discretization_;
       FullMatrix<double>    moments_;
+      CellStiffness         stiffness_;
       FullMatrix<double>    stress_rows_;
-      FullMatrix<double>    bending_;
+      FullMatrix<double>    energy_;
       FullMatrix<double>    small_;
       std::vector<double>   eigenvalues_;
       std::vector<double>   work_;

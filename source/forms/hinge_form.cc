@@ -18,12 +18,12 @@ namespace Nacre
     const double sigma  = edge.sigma(side, q);
 
     // Components of the dyad nu nu, and of the moment it cuts out:
-    // m_nn = nu . H_m rho . nu = (H_m nu nu) : rho.
-    const auto dyad = ShellStrain::dyad_of(frame, nu);
-    const auto H_nu =
-      section.stiffness(frame, edge.point(q, side)).bending * dyad;
-    const double nu_1 = frame.a_con[0] * nu;
-    const double nu_2 = frame.a_con[1] * nu;
+    // m_nn = nu . (B^T eps + D rho) . nu = (B nu nu) : eps + (D nu nu) : rho.
+    const auto   dyad         = ShellStrain::dyad_of(frame, nu);
+    const auto   stiffness_at = section.stiffness(frame, edge.point(q, side));
+    const auto   H_nu         = stiffness_at.bending * dyad;
+    const double nu_1         = frame.a_con[0] * nu;
+    const double nu_2         = frame.a_con[1] * nu;
 
     t0               = frame.t0;
     stiffness        = dyad * H_nu;
@@ -43,6 +43,24 @@ namespace Nacre
                                                          dN,
                                                          shapes.hessian(q, a)));
       }
+    membrane_moment.clear();
+    if (section.is_coupled())
+      {
+        coupling = sigma * (stiffness_at.coupling * dyad);
+        fill_membrane_moment(edge.tied_membrane_rows(side), q);
+      }
+  }
+
+  void
+  HingeSide::fill_membrane_moment(const FullMatrix<double> &rows,
+                                  const unsigned int        q)
+  {
+    membrane_moment.resize(rotation.size());
+    for (unsigned int a = 0; a < rotation.size(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        for (unsigned int v = 0; v < 3; ++v)
+          membrane_moment[a][c] +=
+            coupling[v] * rows(3 * q + v, spacedim * a + c);
   }
 
   HingeFluxes
@@ -83,6 +101,8 @@ namespace Nacre
               const unsigned int i = edge.dof(side, a, c);
               rotation_jump_[i] += sign * side_.rotation[a] * side_.t0[c];
               mean_moment_[i] += half * side_.moment[a] * side_.t0[c];
+              if (!side_.membrane_moment.empty())
+                mean_moment_[i] += half * side_.membrane_moment[a][c];
             }
         stiffness_ += (interior ? 0.5 : 1.) * side_.stiffness;
       }

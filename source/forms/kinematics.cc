@@ -129,21 +129,40 @@ namespace Nacre
                   const KinematicsOptions &options)
   {
     if (options.edge_form == EdgeForm::averaged_normal)
-      return std::make_unique<AveragedNormalKinematics>(
-        discretization,
-        section,
-        options.membrane_strain);
+      {
+        AssertThrow(
+          !section.is_coupled(),
+          ExcMessage(
+            "Discretization/Edge form: averaged normal: it has no terms for "
+            "sections that couple membrane forces and bending; use hinge."));
+        return std::make_unique<AveragedNormalKinematics>(
+          discretization,
+          section,
+          options.membrane_strain);
+      }
     if (options.model == KinematicsModel::corotational)
-      return std::make_unique<CorotationalKinematics>(discretization,
-                                                      section,
-                                                      options.membrane_strain,
-                                                      options.tangent);
+      {
+        AssertThrow(section.is_linear(),
+                    ExcMessage("Discretization/Kinematics: corotational: it is "
+                               "for linear sections only."));
+        AssertThrow(!section.is_coupled() ||
+                      !blends_integration(discretization.element(),
+                                          options.membrane_strain),
+                    ExcMessage(
+                      "Discretization/Membrane strain: reduced: in "
+                      "co-rotational kinematics it has no terms for sections "
+                      "that couple membrane forces and bending; use tied."));
+        return std::make_unique<CorotationalKinematics>(discretization,
+                                                        section,
+                                                        options.membrane_strain,
+                                                        options.tangent);
+      }
     if (options.model == KinematicsModel::finite)
       {
         AssertThrow(options.tangent != TangentType::frozen,
                     ExcMessage("Discretization/Tangent: 'frozen' is of the "
                                "co-rotational form; 'Kinematics = finite' has "
-                               "the exact one only: choose 'consistent'."));
+                               "the exact one only: choose 'symmetric'."));
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
                                                   options.membrane_strain,

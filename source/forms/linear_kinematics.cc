@@ -83,6 +83,49 @@ namespace Nacre
   }
 
   void
+  LinearKinematics::add_coupling_terms(const ShellCellValues &values,
+                                       const Vector<double>  &u,
+                                       LocalTerms            &terms)
+  {
+    if (stiffness_.coupling.empty())
+      return;
+    const auto        &eps = values.membrane_rows();
+    const auto        &rho = values.bending_rows();
+    const unsigned int n   = rho.n();
+    if (terms.wants_tangent)
+      {
+        stress_rows_.reinit(rho.m(), n, true);
+        for (unsigned int q = 0; q < values.n_points(); ++q)
+          multiply_voigt_rows(stiffness_.coupling[q],
+                              &rho(3 * q, 0),
+                              n,
+                              &stress_rows_(3 * q, 0));
+        eps.Tmmult(terms.tangent, stress_rows_, true);
+        stress_rows_.Tmmult(terms.tangent, eps, true);
+      }
+    if (u.size() == 0)
+      return;
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        Voigt<> u_eps, u_rho;
+        for (unsigned int v = 0; v < 3; ++v)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              u_eps[v] += eps(3 * q + v, i) * u[i];
+              u_rho[v] += rho(3 * q + v, i) * u[i];
+            }
+        const Voigt<> force  = stiffness_.coupling[q] * u_rho;
+        const Voigt<> moment = transpose(stiffness_.coupling[q]) * u_eps;
+        for (unsigned int v = 0; v < 3; ++v)
+          for (unsigned int i = 0; i < n; ++i)
+            terms.residual[i] +=
+              eps(3 * q + v, i) * force[v] + rho(3 * q + v, i) * moment[v];
+        terms.energies.membrane += 0.5 * (force * u_eps);
+        terms.energies.bending += 0.5 * (moment * u_rho);
+      }
+  }
+
+  void
   LinearKinematics::add_cell_terms(
     const Triangulation<dim, spacedim>::cell_iterator &cell,
     const Vector<double>                              &u,
@@ -103,6 +146,7 @@ namespace Nacre
                                                stiffness_.bending,
                                                u,
                                                terms);
+    add_coupling_terms(full_values_, u, terms);
     if (reduced && share < 1.)
       {
         reduced_values_->reinit(cell);
@@ -112,6 +156,7 @@ namespace Nacre
                            stiffness_.membrane,
                            u,
                            terms);
+        add_coupling_terms(*reduced_values_, u, terms);
       }
   }
 

@@ -3,9 +3,9 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/discretization.h>
-#include <nacre/discretization/membrane_tying.h>
 #include <nacre/forms/kinematics.h>
 #include <nacre/forms/reference_assembly.h>
+#include <nacre/forms/reference_strains.h>
 #include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/shell_strain.h>
 #include <nacre/problem/boundary_conditions.h>
@@ -22,94 +22,16 @@
 
 namespace Nacre
 {
+  using namespace ReferenceStrains;
+
   namespace
   {
-    /** The displacement: components 0, 1, 2 of the FESystem. */
-    const FEValuesExtractors::Vector displacement(0);
-
     const UpdateFlags geometry_flags =
       update_quadrature_points | update_jacobians | update_jacobian_grads;
 
     const UpdateFlags shape_flags = update_values | update_gradients |
                                     update_hessians | update_JxW_values |
                                     geometry_flags;
-
-    /** a_alpha, a^alpha, t0 and phi0,alpha beta: (5), (11), (12). */
-    SurfaceFrame<>
-    frame_at(const FEValuesBase<dim, spacedim> &fe_values, const unsigned int q)
-    {
-      const auto         &jacobian   = fe_values.jacobian(q);
-      const auto         &derivative = fe_values.jacobian_grad(q);
-      Tensor<1, spacedim> a_1, a_2;
-      std::array<Tensor<1, spacedim>, 3> phi_ab;
-      for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          a_1[c]       = jacobian[c][0];
-          a_2[c]       = jacobian[c][1];
-          phi_ab[0][c] = derivative[c][0][0];
-          phi_ab[1][c] = derivative[c][1][1];
-          phi_ab[2][c] = derivative[c][0][1];
-        }
-      return make_surface_frame(a_1, a_2, phi_ab);
-    }
-
-    SectionPoint
-    section_point(const FEValuesBase<dim, spacedim> &fe_values,
-                  const unsigned int                 q)
-    {
-      return SectionPoint(fe_values.quadrature_point(q),
-                          fe_values.get_cell()->material_id());
-    }
-
-    /** (e_11, e_22, 2 e_12), e_ab = a_a . e . a_b, of a tensor in space. */
-    Voigt<>
-    covariant(const Tensor<2, spacedim> &e, const SurfaceFrame<> &frame)
-    {
-      const auto &a = frame.a_cov;
-      Voigt<>     components;
-      components[0] = a[0] * (e * a[0]);
-      components[1] = a[1] * (e * a[1]);
-      components[2] = a[0] * (e * a[1]) + a[1] * (e * a[0]);
-      return components;
-    }
-
-    /**
-     * The membrane strain (3), eps = 1/2 (grad u + grad u^T) between tangent
-     * vectors.
-     */
-    Voigt<>
-    membrane_strain(const FEValuesBase<dim, spacedim> &fe_values,
-                    const SurfaceFrame<>              &frame,
-                    const unsigned int                 i,
-                    const unsigned int                 q)
-    {
-      return covariant(fe_values[displacement].gradient(i, q), frame);
-    }
-
-    /**
-     * The bending strain (4), rho = -t0 . hess u: deal.II's Hessian of a
-     * function on a surface is its covariant second derivative.
-     */
-    Voigt<>
-    bending_strain(const FEValuesBase<dim, spacedim> &fe_values,
-                   const SurfaceFrame<>              &frame,
-                   const unsigned int                 i,
-                   const unsigned int                 q)
-    {
-      return covariant(-frame.t0 * fe_values[displacement].hessian(i, q),
-                       frame);
-    }
-
-    /** theta = t0 . (grad u . nu), the rotation about an edge. */
-    double
-    rotation(const FEValuesBase<dim, spacedim> &fe_values,
-             const Tensor<1, spacedim>         &t0,
-             const Tensor<1, spacedim>         &nu,
-             const unsigned int                 i,
-             const unsigned int                 q)
-    {
-      return t0 * (fe_values[displacement].gradient(i, q) * nu);
-    }
   } // namespace
 
 
@@ -134,10 +56,16 @@ namespace Nacre
                 discretization.dof_handler().get_fe(),
                 Quadrature<dim>(tying.points()),
                 update_gradients | geometry_flags)
+      , edge_samples(discretization.mapping(),
+                     discretization.dof_handler().get_fe(),
+                     Quadrature<dim>(
+                       MembraneTying(discretization.element(), {}).points()),
+                     update_gradients | geometry_flags)
       , reduced(discretization.mapping(),
                 discretization.dof_handler().get_fe(),
                 discretization.element().reduced_quadrature(),
-                update_gradients | update_JxW_values | geometry_flags)
+                update_gradients | update_hessians | update_JxW_values |
+                  geometry_flags)
       , edge(discretization.mapping(),
              discretization.dof_handler().get_fe(),
              discretization.element().edge_quadrature(),
@@ -156,7 +84,9 @@ namespace Nacre
     const MembraneTying     tying;
     FEValues<dim, spacedim> cell;
     /** At the points where tied membrane strains are sampled. */
-    FEValues<dim, spacedim>          samples;
+    FEValues<dim, spacedim> samples;
+    /** Those for the membrane strains at edges, which are always tied. */
+    FEValues<dim, spacedim>          edge_samples;
     FEValues<dim, spacedim>          reduced;
     FEInterfaceValues<dim, spacedim> edge;
   };
@@ -203,35 +133,23 @@ namespace Nacre
         }
     }
 
-    /** What tied membrane strains are made of: [sample][dof]. */
-    std::vector<std::vector<double>>
-    sample_membrane_strain(const MembraneTying           &tying,
-                           const FEValues<dim, spacedim> &fe_values)
+    /** matrix += weight (eps(i) : B : rho(j) + rho(i) : B^T : eps(j)). */
+    void
+    add_coupling(const std::vector<Voigt<>> &eps,
+                 const VoigtMatrix<>        &B,
+                 const std::vector<Voigt<>> &rho,
+                 const double                weight,
+                 FullMatrix<double>         &matrix)
     {
-      std::vector<std::vector<double>> values;
-      for (const auto &[point, direction] : tying.samples())
+      for (unsigned int j = 0; j < rho.size(); ++j)
         {
-          const auto    frame = frame_at(fe_values, point);
-          const Voigt<> d({direction[0], direction[1], direction[2]});
-          values.emplace_back(fe_values.dofs_per_cell);
-          for (const unsigned int i : fe_values.dof_indices())
-            values.back()[i] = d * membrane_strain(fe_values, frame, i, point);
+          const Voigt<> n = B * rho[j];
+          for (unsigned int i = 0; i < eps.size(); ++i)
+            {
+              matrix(i, j) += weight * (eps[i] * n);
+              matrix(j, i) += weight * (eps[i] * n);
+            }
         }
-      return values;
-    }
-
-    /** The membrane strain at the point @p q, interpolated: [dof]. */
-    std::vector<Voigt<>>
-    tied_membrane_strain(const MembraneTying                    &tying,
-                         const std::vector<std::vector<double>> &samples,
-                         const unsigned int                      q)
-    {
-      std::vector<Voigt<>> strain(samples.front().size());
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[k, weight] : tying.weights(q, v))
-          for (unsigned int i = 0; i < strain.size(); ++i)
-            strain[i][v] += weight * samples[k][i];
-      return strain;
     }
 
     /** Share of the full rule, min(1, h^2 / |K|), where rules are blended. */
@@ -313,6 +231,9 @@ namespace Nacre
           rho[i] = bending_strain(fe_values, frame, i, q);
         add_energy(eps, H.membrane, share * dA, part.matrix);
         add_energy(rho, H.bending, dA, part.matrix);
+        // Coupling: eps(v):B:rho(u) + rho(v):B^T:eps(u)
+        if (section_.is_coupled())
+          add_coupling(eps, H.coupling, rho, share * dA, part.matrix);
 
         // f . v
         const double area_density = section_.density(x) * section_.thickness(x);
@@ -324,17 +245,22 @@ namespace Nacre
       return;
     scratch.reduced.reinit(cell);
     std::vector<Voigt<>> eps(dofs.size());
+    const bool           is_coupled = section_.is_coupled();
     for (const unsigned int q : scratch.reduced.quadrature_point_indices())
       {
         const auto frame = frame_at(scratch.reduced, q);
         const auto H =
           section_.stiffness(frame, section_point(scratch.reduced, q));
+        const double dA = (1. - share) * scratch.reduced.JxW(q);
         for (unsigned int i = 0; i < eps.size(); ++i)
-          eps[i] = membrane_strain(scratch.reduced, frame, i, q);
-        add_energy(eps,
-                   H.membrane,
-                   (1. - share) * scratch.reduced.JxW(q),
-                   part.matrix);
+          {
+            eps[i] = membrane_strain(scratch.reduced, frame, i, q);
+            if (is_coupled)
+              rho[i] = bending_strain(scratch.reduced, frame, i, q);
+          }
+        add_energy(eps, H.membrane, dA, part.matrix);
+        if (is_coupled)
+          add_coupling(eps, H.coupling, rho, dA, part.matrix);
       }
   }
 
@@ -347,14 +273,15 @@ namespace Nacre
       EdgeSide(const FEValuesBase<dim, spacedim> &fe_values,
                const unsigned int                 q,
                const Tensor<1, spacedim>         &nu,
-               const SectionLaw                  &section)
+               const SectionLaw                  &section,
+               const TiedEdgeStrain              &tied)
         : frame(frame_at(fe_values, q))
         , nu(nu)
         , theta(fe_values.dofs_per_cell)
         , m_nn(fe_values.dofs_per_cell)
       {
         const auto H = section.stiffness(frame, section_point(fe_values, q));
-        // nu . m . nu = (nu nu) : H_m : rho, and H_m(nu, nu, nu, nu)
+        // nu . m . nu = (nu nu) : (B^T : eps + D : rho), and D(nu, nu, nu, nu)
         const auto nu_nu = ShellStrain::dyad_of(frame, nu);
         D                = nu_nu * (H.bending * nu_nu);
         for (unsigned int i = 0; i < theta.size(); ++i)
@@ -362,6 +289,12 @@ namespace Nacre
             theta[i] = rotation(fe_values, frame.t0, nu, i, q);
             m_nn[i] =
               nu_nu * (H.bending * bending_strain(fe_values, frame, i, q));
+          }
+        if (section.is_coupled())
+          {
+            const auto eps = tied.at(q);
+            for (unsigned int i = 0; i < theta.size(); ++i)
+              m_nn[i] += (H.coupling * nu_nu) * eps[i];
           }
       }
 
@@ -393,18 +326,38 @@ namespace Nacre
   {
     auto &edge = scratch.edge;
     edge.reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
-    auto        &part  = copy.add_part(edge.get_interface_dof_indices());
-    const auto  &minus = edge.get_fe_face_values(0);
-    const auto  &plus  = edge.get_fe_face_values(1);
-    const double eta   = penalty_.interior(cell, neighbor);
-    const auto   n     = edge.n_current_interface_dofs();
+    auto                &part = copy.add_part(edge.get_interface_dof_indices());
+    const auto          &minus = edge.get_fe_face_values(0);
+    const auto          &plus  = edge.get_fe_face_values(1);
+    const double         eta   = penalty_.interior(cell, neighbor);
+    const auto           n     = edge.n_current_interface_dofs();
+    const TiedEdgeStrain tied_minus(discretization_,
+                                    section_,
+                                    scratch.edge_samples,
+                                    cell,
+                                    face,
+                                    subface);
+    const TiedEdgeStrain tied_plus(discretization_,
+                                   section_,
+                                   scratch.edge_samples,
+                                   neighbor,
+                                   neighbor_face,
+                                   neighbor_subface);
 
     std::vector<double> jump(n), mean(n);
     for (const unsigned int q : edge.quadrature_point_indices())
       {
         // Each side has its own frame: nu^- = n^-, nu^+ = -n^+.
-        const EdgeSide side_minus(minus, q, minus.normal_vector(q), section_);
-        const EdgeSide side_plus(plus, q, -plus.normal_vector(q), section_);
+        const EdgeSide side_minus(minus,
+                                  q,
+                                  minus.normal_vector(q),
+                                  section_,
+                                  tied_minus);
+        const EdgeSide side_plus(plus,
+                                 q,
+                                 -plus.normal_vector(q),
+                                 section_,
+                                 tied_plus);
         // A neighbour of the opposite orientation enters with the other sign.
         const double sigma =
           side_plus.tangent() * side_minus.tangent() > 0. ? 1. : -1.;
@@ -452,11 +405,21 @@ namespace Nacre
     const auto  &fe_values = scratch.edge.get_fe_face_values(0);
     auto        &part = copy.add_part(scratch.edge.get_interface_dof_indices());
     const double eta  = penalty_.boundary(cell);
+    const TiedEdgeStrain tied(discretization_,
+                              section_,
+                              scratch.edge_samples,
+                              cell,
+                              face,
+                              numbers::invalid_unsigned_int);
     for (const unsigned int q : fe_values.quadrature_point_indices())
       {
         const auto     x  = fe_values.quadrature_point(q);
         const double   ds = fe_values.JxW(q);
-        const EdgeSide side(fe_values, q, fe_values.normal_vector(q), section_);
+        const EdgeSide side(fe_values,
+                            q,
+                            fe_values.normal_vector(q),
+                            section_,
+                            tied);
         for (const unsigned int i : fe_values.dof_indices())
           {
             if (force != loads_.edge_forces().end())

@@ -3,6 +3,7 @@
 
 #include <nacre/base/text.h>
 #include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/mechanics/section_regions.h>
 
 #include <algorithm>
 #include <sstream>
@@ -142,46 +143,17 @@ namespace Nacre
   void
   LinearElasticSection::set_regions(const MeshRegions &mesh)
   {
-    const auto plain = [&](const std::string &name) {
-      return mesh.names_ignore_case ? Text::lower_case(name) : name;
-    };
-    std::vector<std::string>                         known;
-    std::map<std::string, std::vector<unsigned int>> ids;
-    for (unsigned int id = 0; id < mesh.regions.size(); ++id)
-      for (const std::string &name : mesh.regions[id].names)
-        {
-          ids[plain(name)].push_back(id);
-          if (ids[plain(name)].size() == 1)
-            known.push_back(Text::quoted(name));
-        }
-
-    region_of_id_.assign(mesh.regions.size(), nullptr);
-    std::vector<std::string> name_of_id(mesh.regions.size());
+    std::vector<std::string>    names;
+    std::vector<const Region *> values;
     for (const auto &[name, region] : regions_)
       {
-        AssertThrow(!known.empty(),
-                    ExcMessage(std::string(regions_parameter) +
-                               ": the mid-surface has no region '" + name +
-                               "': only mesh files with named groups of cells "
-                               "have regions."));
-        const auto found = ids.find(plain(name));
-        AssertThrow(
-          found != ids.end(),
-          ExcMessage(
-            Text::unknown_name(regions_parameter, "region", name, known)));
-        for (const unsigned int id : found->second)
-          {
-            AssertThrow(region_of_id_[id] == nullptr,
-                        ExcMessage(std::string(regions_parameter) + ": " +
-                                   mesh.regions[id].example +
-                                   " is in both of the regions '" +
-                                   name_of_id[id] + "' and '" + name +
-                                   "'; only one of them can give its "
-                                   "section."));
-            region_of_id_[id] = &region;
-            name_of_id[id]    = name;
-          }
+        names.push_back(name);
+        values.push_back(&region);
       }
+    region_of_id_.clear();
+    for (const unsigned int k : assign_regions(mesh, names, regions_parameter))
+      region_of_id_.push_back(k == numbers::invalid_unsigned_int ? nullptr :
+                                                                   values[k]);
   }
 
   const Expression *

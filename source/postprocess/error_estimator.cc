@@ -355,15 +355,14 @@ namespace Nacre
           const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
           for (unsigned int f = 0; f < fields_.size(); ++f)
             for (unsigned int a = 0; a < hinge_.rotation.size(); ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                {
-                  const double u =
-                    (*fields_[f].displacement)(
-                      edge_.dof_indices()[edge_.dof(side, a, c)]) *
-                    hinge_.t0[c];
-                  rotations_[f] += sign * hinge_.rotation[a] * u;
-                  moments_[f] += sign * hinge_.moment[a] * u;
-                }
+              {
+                Vector3 u;
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  u[c] = (*fields_[f].displacement)(
+                    edge_.dof_indices()[edge_.dof(side, a, c)]);
+                rotations_[f] += sign * hinge_.rotation[a] * (hinge_.t0 * u);
+                moments_[f] += sign * hinge_.moment_of(a, u);
+              }
         }
     }
 

@@ -105,8 +105,6 @@ namespace Nacre
         const auto  gradient_square = g[0] * (error.du[0] * error.du[0]) +
                                      g[1] * (error.du[1] * error.du[1]) +
                                      2. * g[2] * (error.du[0] * error.du[1]);
-        const auto stiffness =
-          shell_.section.stiffness(frame, values_.point(q));
         const Voigt<> membrane =
           ShellStrain::membrane(frame, exact.du[0], exact.du[1]) -
           strain_of(values_.membrane_rows(), q, u_);
@@ -115,9 +113,9 @@ namespace Nacre
 
         squares[0] += values_.JxW(q) * error.value.norm_square();
         squares[1] += values_.JxW(q) * gradient_square;
-        squares[2] +=
-          values_.JxW(q) * (membrane * (stiffness.membrane * membrane) +
-                            bending * (stiffness.bending * bending));
+        const auto error_response =
+          shell_.section.response(membrane, bending, frame, values_.point(q));
+        squares[2] += values_.JxW(q) * 2. * error_response.energy;
       }
 
       const SolvedShell    &shell_;

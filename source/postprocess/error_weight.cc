@@ -43,6 +43,13 @@ namespace Nacre
         for (unsigned int d = 0; d < 3; ++d)
           symbol[c][d] = eps[c] * (stiffness.membrane * eps[d]);
       symbol[2][2] += rho * (stiffness.bending * rho);
+      // eps : B : rho, in which only the normal part has a bending strain
+      const Voigt<> B_rho = stiffness.coupling * rho;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          symbol[c][2] += eps[c] * B_rho;
+          symbol[2][c] += eps[c] * B_rho;
+        }
       return symbol;
     }
   } // namespace

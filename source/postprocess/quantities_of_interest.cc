@@ -5,6 +5,7 @@
 #include <nacre/forms/mass_terms.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
+#include <nacre/postprocess/ply_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
 #include <nacre/problem/exact_solution.h>
@@ -377,6 +378,50 @@ namespace Nacre
       };
     }
 
+    /** "ply stress 1 of 3 top at (point)", or "Tsai-Wu index at (point)" */
+    void
+    parse_ply(QuantitiesOfInterest::Quantity &quantity,
+              Phrase                          phrase,
+              const PlyQuantity::Kind         kind,
+              const Constants                &constants)
+    {
+      const std::string &where    = phrase.where;
+      const bool         is_index = kind == PlyQuantity::Kind::tsai_wu ||
+                            kind == PlyQuantity::Kind::maximum_stress;
+      // "at" is the first word of an index, which has no other.
+      phrase.text                 = " " + phrase.text;
+      const std::string component = is_index ? "" : phrase.up_to("of");
+      if (!is_index)
+        phrase.text = " " + phrase.text;
+      const std::string ply = phrase.up_to("at");
+      AssertThrow(!phrase.text.empty() && (!is_index || ply.empty()),
+                  ExcMessage(where + ": " +
+                             (is_index ? "write 'Tsai-Wu index at (x, y, z)' "
+                                         "or 'maximum stress index at (x, y, "
+                                         "z)'" :
+                                         ply_quantity_form) +
+                             "."));
+      const auto  point = evaluate_point(phrase.text, where, constants);
+      PlyQuantity ply_quantity{kind, 0, 0, 0, point, where};
+      if (!is_index)
+        ply_quantity = parse_ply_quantity(kind, component, ply, point, where);
+      quantity.evaluate = [=](const SolvedShell &shell) {
+        return evaluate_ply_quantity(shell, ply_quantity);
+      };
+    }
+
+    /** The kinds of parse_ply(). */
+    const std::vector<std::pair<std::string, PlyQuantity::Kind>> &
+    ply_kinds()
+    {
+      static const std::vector<std::pair<std::string, PlyQuantity::Kind>>
+        kinds = {{"ply stress", PlyQuantity::Kind::stress},
+                 {"ply strain", PlyQuantity::Kind::strain},
+                 {"Tsai-Wu index", PlyQuantity::Kind::tsai_wu},
+                 {"maximum stress index", PlyQuantity::Kind::maximum_stress}};
+      return kinds;
+    }
+
     /** Fill evaluate and is_error from the words of a kind. */
     void
     parse_kind(QuantitiesOfInterest::Quantity &quantity,
@@ -402,6 +447,9 @@ namespace Nacre
                     ExcMessage(phrase.where + ": '" + phrase.text +
                                "' after the kind of quantity is not "
                                "understood."));
+      for (const auto &[name, ply_kind] : ply_kinds())
+        if (phrase.take(name))
+          return parse_ply(quantity, phrase, ply_kind, constants);
       if (phrase.take("displacement"))
         parse_displacement(quantity, phrase, constants);
       else if (phrase.take("reaction"))
@@ -460,7 +508,10 @@ namespace Nacre
       "SUPPORTS; "
       "moment x|y|z of SUPPORTS [about (point)], SUPPORTS 'EDGE, point (x, y, "
       "z), ...' or 'all', each node once; L2 error; H1 error; energy "
-      "error; in dynamics kinetic energy, total energy, external work, work "
+      "error; in laminates ply stress|strain 1|2|12 of NUMBER bottom|top at "
+      "(point), Tsai-Wu index at (point), maximum stress index at (point), the "
+      "largest of all plies; in dynamics kinetic energy, total energy, "
+      "external work, work "
       "of prescribed motion, dissipation (by mass damping), energy balance "
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
       "the origin. Units: those of the quantity.");
@@ -475,6 +526,8 @@ namespace Nacre
   QuantitiesOfInterest::kinds()
   {
     std::vector<std::string> names = {"displacement", "reaction", "moment"};
+    for (const auto &kind : ply_kinds())
+      names.push_back(kind.first);
     for (const auto &simple : simple_kinds())
       names.push_back(simple.name);
     return names;

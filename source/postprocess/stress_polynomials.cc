@@ -46,11 +46,11 @@ namespace Nacre
             eps[v] += values.membrane_rows()(3 * q + v, i) * u[i];
             rho[v] += values.bending_rows()(3 * q + v, i) * u[i];
           }
-      const auto &frame     = values.frame(q);
-      const auto  stiffness = section.stiffness(frame, values.point(q));
-      const auto  n         = frame.j0 * (stiffness.membrane * eps);
-      const auto  m         = frame.j0 * (stiffness.bending * rho);
-      const auto &a         = frame.a_cov;
+      const auto &frame  = values.frame(q);
+      const auto  answer = section.response(eps, rho, frame, values.point(q));
+      const auto  n      = frame.j0 * answer.membrane_force;
+      const auto  m      = frame.j0 * answer.moment;
+      const auto &a      = frame.a_cov;
 
       std::array<Vector3, 5> vectors;
       vectors[0] = n[0] * a[0] + n[2] * a[1];

@@ -5,6 +5,7 @@
 #include <nacre/base/output_file.h>
 #include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/hdf5_output.h>
+#include <nacre/postprocess/strain_values.h>
 #include <nacre/postprocess/vtu_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -46,23 +47,45 @@ namespace Nacre
       /** Membrane forces and moments in space and in the basis e. */
       Tensor3     membrane_forces, moments;
       PlaneTensor n, m;
-      double      thickness      = 0.;
-      double      energy_density = 0.;
-      double      rank           = 0.;
+      /** At the top, in the middle, at the bottom. */
+      std::array<double, 3> von_mises{};
+      double                energy_density = 0.;
+      double                rank           = 0.;
+      /** Of laminates, bottom to top. */
+      std::vector<LayerState> layers;
 
-      /** Von Mises stress at z = @p side h/2 along the normal. */
+      /** The largest of an index of all layers; 0 without any. */
       double
-      von_mises(const double side) const
+      largest(const std::optional<double> LayerState::*index) const
       {
-        const PlaneTensor stress =
-          n / thickness + 6. * side / (thickness * thickness) * m;
-        // s11^2 - s11 s22 + s22^2 + 3 s12^2
-        const double trace = stress[0][0] + stress[1][1];
-        const double det =
-          stress[0][0] * stress[1][1] - stress[0][1] * stress[0][1];
-        return std::sqrt(std::max(trace * trace - 3. * det, 0.));
+        std::optional<double> largest;
+        for (const auto &layer : layers)
+          if (layer.*index)
+            largest =
+              largest ? std::max(*largest, *(layer.*index)) : layer.*index;
+        return largest.value_or(0.);
+      }
+
+      /** Of a layer's face, as a vector; 0 where there is no such layer. */
+      Vector3
+      of_layer(const std::array<Voigt<>, 2> LayerState::*values,
+               const unsigned int                        layer,
+               const unsigned int                        face) const
+      {
+        return layer < layers.size() ? (layers[layer].*values)[face] :
+                                       Vector3();
       }
     };
+
+    /** s11^2 - s11 s22 + s22^2 + 3 s12^2, its root. */
+    double
+    von_mises(const PlaneTensor &stress)
+    {
+      const double trace = stress[0][0] + stress[1][1];
+      const double det =
+        stress[0][0] * stress[1][1] - stress[0][1] * stress[0][1];
+      return std::sqrt(std::max(trace * trace - 3. * det, 0.));
+    }
 
     /** A field of the output: name, rank, and how to compute it. */
     struct Field
@@ -109,12 +132,36 @@ namespace Nacre
               }};
     }
 
-    /** All fields of the output, in its order. */
-    const std::vector<Field> &
-    fields()
+    /** The fields of @p n_layers layers. */
+    std::vector<Field>
+    layer_fields(const unsigned int n_layers)
     {
-      using S                              = const PointState &;
-      static const std::vector<Field> list = {
+      using S                 = const PointState &;
+      std::vector<Field> list = {
+        scalar("tsai_wu", [](S s) { return s.largest(&LayerState::tsai_wu); }),
+        scalar("maximum_stress",
+               [](S s) { return s.largest(&LayerState::maximum_stress); })};
+      for (unsigned int k = 0; k < n_layers; ++k)
+        for (unsigned int face = 0; face < 2; ++face)
+          {
+            const std::string name = "ply_" + std::to_string(k + 1) +
+                                     (face == 0 ? "_bottom_" : "_top_");
+            list.push_back(vector(name + "stress", [=](S s) {
+              return s.of_layer(&LayerState::stress, k, face);
+            }));
+            list.push_back(vector(name + "strain", [=](S s) {
+              return s.of_layer(&LayerState::strain, k, face);
+            }));
+          }
+      return list;
+    }
+
+    /** All fields of the output, in its order. */
+    std::vector<Field>
+    fields(const unsigned int n_layers)
+    {
+      using S                 = const PointState &;
+      std::vector<Field> list = {
         vector("displacement", [](S s) { return s.displacement; }),
         vector("normal", [](S s) { return s.normal; }),
         vector("e1", [](S s) { return s.e[0]; }),
@@ -133,11 +180,14 @@ namespace Nacre
         scalar("m11", [](S s) { return s.m[0][0]; }),
         scalar("m22", [](S s) { return s.m[1][1]; }),
         scalar("m12", [](S s) { return s.m[0][1]; }),
-        scalar("von_mises_top", [](S s) { return s.von_mises(1.); }),
-        scalar("von_mises_middle", [](S s) { return s.von_mises(0.); }),
-        scalar("von_mises_bottom", [](S s) { return s.von_mises(-1.); }),
+        scalar("von_mises_top", [](S s) { return s.von_mises[0]; }),
+        scalar("von_mises_middle", [](S s) { return s.von_mises[1]; }),
+        scalar("von_mises_bottom", [](S s) { return s.von_mises[2]; }),
         scalar("energy_density", [](S s) { return s.energy_density; }),
         scalar("rank", [](S s) { return s.rank; })};
+      if (n_layers > 0)
+        for (const auto &field : layer_fields(n_layers))
+          list.push_back(field);
       return list;
     }
 
@@ -172,143 +222,57 @@ namespace Nacre
                  const KinematicsOptions             &kinematics,
                  const TrilinosWrappers::MPI::Vector &displacement)
         : section_(section)
-        , is_linear_(kinematics.model == KinematicsModel::linear)
-        , displacement_(displacement)
         , rank_(Utilities::MPI::this_mpi_process(discretization.communicator()))
-        , values_(discretization,
-                  points,
-                  recovers_tied_strain(kinematics.membrane_strain))
-        , u_(values_.n_dofs())
-        , membrane_strains_(3 * points.size())
-        , bending_strains_(3 * points.size())
+        , strains_(discretization, points, kinematics, displacement)
       {}
 
       void
       reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
       {
-        cell->get_dof_values(displacement_, u_);
-        if (is_linear_)
-          {
-            values_.reinit(cell);
-            values_.membrane_rows().vmult(membrane_strains_, u_);
-            values_.bending_rows().vmult(bending_strains_, u_);
-          }
-        else
-          {
-            values_.reinit_frames(cell);
-            fill_finite_strains();
-          }
+        strains_.reinit(cell);
       }
 
       Point<spacedim>
       position(const unsigned int q) const
       {
-        return values_.point(q);
+        return strains_.values().point(q);
       }
 
       PointState
       state(const unsigned int q) const
       {
-        const auto &frame = values_.frame(q);
-        const auto  point = values_.point(q);
-        PointState  s;
-        for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            s.displacement[c] +=
-              values_.shapes().value(q, a) * u_[values_.dof(a, c)];
-        s.normal    = frame.t0;
-        s.e[0]      = frame.a_cov[0] / frame.a_cov[0].norm();
-        s.e[1]      = cross_product_3d(frame.t0, s.e[0]);
-        s.rank      = rank_;
-        s.thickness = section_.thickness(point);
+        const auto &frame  = strains_.values().frame(q);
+        const auto  point  = strains_.values().point(q);
+        const auto  eps    = strains_.membrane(q);
+        const auto  rho    = strains_.bending(q);
+        const auto  answer = section_.response(eps, rho, frame, point);
 
-        Voigt<> eps, rho;
-        for (unsigned int v = 0; v < 3; ++v)
-          {
-            eps[v] = membrane_strains_[3 * q + v];
-            rho[v] = bending_strains_[3 * q + v];
-          }
-        const auto stiffness = section_.stiffness(frame, point); // (8)
-        const auto n         = stiffness.membrane * eps;
-        const auto m         = stiffness.bending * rho;
-        s.energy_density     = 0.5 * (n * eps + m * rho);
-        s.membrane_forces    = ShellStrain::resultant_tensor(frame, n);
-        s.moments            = ShellStrain::resultant_tensor(frame, m);
-        s.n                  = in_basis(s.e, s.membrane_forces);
-        s.m                  = in_basis(s.e, s.moments);
+        PointState s;
+        s.displacement   = strains_.displacement(q);
+        s.normal         = frame.t0;
+        s.e[0]           = frame.a_cov[0] / frame.a_cov[0].norm();
+        s.e[1]           = cross_product_3d(frame.t0, s.e[0]);
+        s.rank           = rank_;
+        s.energy_density = answer.energy;
+        s.membrane_forces =
+          ShellStrain::resultant_tensor(frame, answer.membrane_force);
+        s.moments = ShellStrain::resultant_tensor(frame, answer.moment);
+        s.n       = in_basis(s.e, s.membrane_forces);
+        s.m       = in_basis(s.e, s.moments);
+        for (unsigned int k = 0; k < 3; ++k)
+          s.von_mises[k] = von_mises(
+            in_basis(s.e,
+                     ShellStrain::resultant_tensor(
+                       frame,
+                       section_.stress(eps, rho, 1. - k, frame, point))));
+        s.layers = section_.layers(eps, rho, frame, point);
         return s;
       }
 
     private:
-      /** phi,1, phi,2 at the point @p q of a table. */
-      std::array<Vector3, dim>
-      deformed_basis(const SurfaceFrame<> &frame,
-                     const ShapeTable     &shapes,
-                     const unsigned int    q) const
-      {
-        auto phi = frame.a_cov;
-        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              phi[alpha][c] +=
-                shapes.gradient(q, a)[alpha] * u_[values_.dof(a, c)];
-        return phi;
-      }
-
-      /**
-       * Strains that no rotation changes: 1/2 (phi,a . phi,b - phi0,a .
-       * phi0,b), tied, and -(phi,ab . t) + phi0,ab . t0. For small strains
-       * they are those of the co-rotational form.
-       */
-      void
-      fill_finite_strains()
-      {
-        const auto         &tying = values_.tying();
-        std::vector<double> samples;
-        for (const auto &[point, direction] : tying.samples())
-          {
-            const auto &frame = values_.tying_frame(point);
-            const auto  phi =
-              deformed_basis(frame, values_.tying_shapes(), point);
-            const auto &a = frame.a_cov;
-            samples.push_back(
-              0.5 * direction[0] * (phi[0] * phi[0] - a[0] * a[0]) +
-              0.5 * direction[1] * (phi[1] * phi[1] - a[1] * a[1]) +
-              direction[2] * (phi[0] * phi[1] - a[0] * a[1]));
-          }
-        const auto &shapes = values_.shapes();
-        for (unsigned int q = 0; q < values_.n_points(); ++q)
-          {
-            const auto &frame = values_.frame(q);
-            const auto  phi   = deformed_basis(frame, shapes, q);
-            auto        ddphi = frame.a_cov_derivatives;
-            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                for (unsigned int v = 0; v < 3; ++v)
-                  ddphi[v][c] +=
-                    shapes.hessian(q, a)[v] * u_[values_.dof(a, c)];
-            const Vector3 area = cross_product_3d(phi[0], phi[1]);
-            for (unsigned int v = 0; v < 3; ++v)
-              {
-                double strain = 0.;
-                for (const auto &[k, weight] : tying.weights(q, v))
-                  strain += weight * samples[k];
-                membrane_strains_[3 * q + v] = strain;
-                bending_strains_[3 * q + v] =
-                  (v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0 -
-                                        ddphi[v] * area / area.norm());
-              }
-          }
-      }
-
-      const SectionLaw                    &section_;
-      const bool                           is_linear_;
-      const TrilinosWrappers::MPI::Vector &displacement_;
-      const unsigned int                   rank_;
-      ShellCellValues                      values_;
-      Vector<double>                       u_;
-      Vector<double>                       membrane_strains_;
-      Vector<double>                       bending_strains_;
+      const SectionLaw  &section_;
+      const unsigned int rank_;
+      StrainValues       strains_;
     };
 
     std::string
@@ -418,7 +382,8 @@ namespace Nacre
                            const TrilinosWrappers::MPI::Vector &displacement,
                            const std::vector<double> &error_indicators,
                            const unsigned int         n_subdivisions)
-    : has_error_indicators_(!error_indicators.empty())
+    : n_layers_(section.n_layers())
+    , has_error_indicators_(!error_indicators.empty())
   {
     const bool triangles =
       discretization.element().type == ElementType::triangle;
@@ -435,6 +400,7 @@ namespace Nacre
                       points,
                       kinematics,
                       displacement);
+    const auto         list         = fields(n_layers_);
     const unsigned int n_components = get_dataset_names().size();
 
     for (const auto &cell :
@@ -452,7 +418,7 @@ namespace Nacre
             {
               const PointState state = states.state(q);
               unsigned int     row   = 0;
-              for (const auto &field : fields())
+              for (const auto &field : list)
                 for (unsigned int c = 0; c < field.n_components; ++c)
                   patch.data(row++, q) = field.component(state, c);
               if (has_error_indicators_)
@@ -485,7 +451,7 @@ namespace Nacre
   ShellFields::get_dataset_names() const
   {
     std::vector<std::string> names;
-    for (const auto &field : fields())
+    for (const auto &field : fields(n_layers_))
       names.insert(names.end(), field.n_components, field.name);
     if (has_error_indicators_)
       names.push_back("error_indicator");
@@ -498,7 +464,7 @@ namespace Nacre
   {
     std::vector<NonscalarRange> ranges;
     unsigned int                first = 0;
-    for (const auto &field : fields())
+    for (const auto &field : fields(n_layers_))
       {
         if (field.interpretation != Interpretation::component_is_scalar)
           ranges.emplace_back(first,

@@ -14,7 +14,7 @@
 #include <numeric>
 
 /** A section of which only one stiffness counts. */
-class PartialSection : public SectionLaw
+class PartialSection : public LinearSectionLaw
 {
 public:
   PartialSection(const SectionLaw &section, const double membrane)

@@ -14,6 +14,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -272,6 +273,36 @@ namespace Nacre
       return tables_[face][kind]->shapes;
     }
 
+    /**
+     * @name Tied membrane strains at the points of the edge
+     *
+     * Only sections that couple membrane and bending want them: all is computed
+     * when it is first asked for after reinit().
+     */
+    //@{
+    /**
+     * Rows of a side, [3 q + v][3 a + c]: Voigt component v at the point q of
+     * the displacement e_c of the node a.
+     */
+    const FullMatrix<double> &
+    tied_membrane_rows(const unsigned int side) const;
+
+    /** Where the strain is sampled, and what a side's points take of it. */
+    const MembraneTying &
+    tying(const unsigned int side) const;
+
+    /** Shape functions at the tying points. */
+    const ShapeTable &
+    tying_shapes() const
+    {
+      return tying_table_->shapes;
+    }
+
+    /** Frames at the tying points of a side, without second derivatives. */
+    const std::vector<SurfaceFrame<>> &
+    tying_frames(const unsigned int side) const;
+    //@}
+
     /** Index within dof_indices() of a side's node and component. */
     unsigned int
     dof(const unsigned int side,
@@ -288,8 +319,30 @@ namespace Nacre
       Table(const Discretization          &discretization,
             const std::vector<Point<dim>> &points);
 
+      std::vector<Point<dim>> points;
+      ShapeTable              shapes;
+      GeometryTable           geometry;
+    };
+
+    /** Where tied membrane strains are sampled, for any points of an edge. */
+    struct TyingTable
+    {
+      TyingTable(const Discretization &discretization,
+                 const MembraneTying  &tying);
+
       ShapeTable    shapes;
       GeometryTable geometry;
+    };
+
+    /** What belongs to the tied strains of one side. */
+    struct TiedSide
+    {
+      bool                        has_frames = false;
+      bool                        has_rows   = false;
+      std::vector<SurfaceFrame<>> frames;
+      FullMatrix<double>          rows;
+      FullMatrix<double>          samples;
+      GeometryTable::Values       geometry;
     };
 
     void
@@ -330,6 +383,14 @@ namespace Nacre
     std::array<std::vector<unsigned int>, 2>             joint_dofs_;
     std::vector<types::global_dof_index>                 dof_indices_;
     std::array<std::vector<types::global_dof_index>, 2>  cell_dofs_;
+    std::array<cell_iterator, 2>                         cells_;
+    /** @name For tied strains only; tyings by face and kind of the table */
+    //@{
+    mutable std::map<std::pair<unsigned int, unsigned int>, MembraneTying>
+                                      tyings_;
+    mutable std::optional<TyingTable> tying_table_;
+    mutable std::array<TiedSide, 2>   tied_sides_;
+    //@}
     /** Index 3 a + c of each local dof. */
     std::vector<unsigned int> local_to_node_;
   };

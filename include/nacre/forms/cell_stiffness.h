@@ -14,12 +14,17 @@ namespace Nacre
   /** Section stiffness times area and weight at the points of a cell. */
   struct CellStiffness
   {
-    /** H_n times the area (force times 1/length^3). */
+    /** A times the area (force times 1/length^3). */
     std::vector<VoigtMatrix<>> membrane;
-    /** H_m times the area (force/length). */
+    /** D times the area (force/length). */
     std::vector<VoigtMatrix<>> bending;
+    /** B times the area (force/length^2); empty if nothing is coupled. */
+    std::vector<VoigtMatrix<>> coupling;
 
-    /** @param membrane_factor share of these points in the membrane energy */
+    /**
+     * @param membrane_factor share of these points in the energy of the
+     *   membrane strain, that of its coupling with bending included
+     */
     void
     reinit(const ShellCellValues &values,
            const SectionLaw      &section,

@@ -54,7 +54,11 @@ namespace Nacre
   /**
    * The membrane part of the co-rotational cell, (46)-(48): the membrane
    * strain of R^T phi - phi0 is sampled at the tying points, each with a polar
-   * rotation of its own; the energy is 1/2 e . M . e of the samples e.
+   * rotation of its own; the energy is 1/2 e . M . e of the samples e, to which
+   * sections with coupling add half of eps : B : rho.
+   *
+   * The values that give the tying points are ShellCellValues or the side of an
+   * edge, EdgeSideTying.
    *
    * Templated on the scalar, so that tests can take complex steps.
    */
@@ -69,6 +73,15 @@ namespace Nacre
     reinit(const ShellCellValues     &values,
            const FullMatrix<double>  &stiffness,
            const NodeVectors<Number> &u)
+    {
+      reinit_strains(values, u);
+      set_forces(values.tying(), stiffness);
+    }
+
+    /** The strains without the forces. */
+    template <typename Values>
+    void
+    reinit_strains(const Values &values, const NodeVectors<Number> &u)
     {
       const auto &tying = values.tying();
       deformed_.resize(tying.points().size());
@@ -95,7 +108,74 @@ namespace Nacre
             strains_[s] +=
               samples[s].direction[v] * strain[samples[s].point][v];
         }
-      set_forces(tying, stiffness);
+    }
+
+    /** Begin with no forces, for add_point_force(). */
+    void
+    clear_forces(const MembraneTying &tying)
+    {
+      forces_.assign(tying.samples().size(), 0.);
+    }
+
+    /** The strain at the point @p q, interpolated from the samples. */
+    Voigt<Number>
+    tied_strain(const MembraneTying &tying, const unsigned int q) const
+    {
+      Voigt<Number> strain;
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const auto &[s, weight] : tying.weights(q, v))
+          strain[v] += weight * strains_[s];
+      return strain;
+    }
+
+    /**
+     * Add the membrane force @p n at the point @p q, area and weight included,
+     * to those of the samples; set_resultants() follows the last one.
+     */
+    void
+    add_point_force(const MembraneTying &tying,
+                    const unsigned int   q,
+                    const Voigt<Number> &n)
+    {
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const auto &[s, weight] : tying.weights(q, v))
+          forces_[s] += weight * n[v];
+    }
+
+    /** From the forces of the samples to those of the tying points. */
+    void
+    set_resultants(const MembraneTying &tying)
+    {
+      const auto &samples = tying.samples();
+      resultants_.assign(tying.points().size(), Voigt<Number>());
+      for (unsigned int s = 0; s < samples.size(); ++s)
+        for (unsigned int v = 0; v < 3; ++v)
+          resultants_[samples[s].point][v] +=
+            samples[s].direction[v] * forces_[s];
+    }
+
+    /**
+     * The force of a node is N,alpha g_alpha, g_alpha = N^alpha beta q_beta,
+     * summed over the tying points: the part of dg_alpha at the point @p k that
+     * comes from dq_beta, [alpha][g], to be applied to d(phi,g).
+     */
+    std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2>
+    turn_derivative(const unsigned int k) const
+    {
+      const auto  &n       = resultants_[k];
+      const auto  &t       = deformed_[k].t0;
+      const Number N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
+      std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2> X;
+      for (unsigned int alpha = 0; alpha < 2; ++alpha)
+        {
+          const Vector r =
+            N[alpha][0] * polar_[k].q_cov[0] + N[alpha][1] * polar_[k].q_cov[1];
+          for (unsigned int g = 0; g < 2; ++g)
+            X[alpha][g] =
+              (r * deformed_[k].a_con[g]) * outer_product(t, t) +
+              outer_product(cross_product_3d(t, r), polar_[k].spin[g]);
+        }
+      return X;
     }
 
     /**
@@ -164,6 +244,36 @@ namespace Nacre
       return polar_[k];
     }
 
+    /**
+     * The vectors of which v,1 and v,2 make the virtual strain @p direction .
+     * (q_1 . v,1, q_2 . v,2, q_1 . v,2 + q_2 . v,1) at the tying point @p k,
+     * with the rotation held.
+     */
+    std::array<Vector, 2>
+    sample_vectors(const std::array<double, 3> &direction,
+                   const unsigned int           k) const
+    {
+      return combine(direction, polar_[k].q_cov);
+    }
+
+    /** Those of the strain's derivative: dq_alpha = (t . omega) t x q_alpha. */
+    std::array<Vector, 2>
+    sample_derivatives(const std::array<double, 3> &direction,
+                       const unsigned int           k) const
+    {
+      const auto  &polar  = polar_[k];
+      const auto  &phi    = deformed_[k];
+      const auto   turned = combine(direction,
+                                  {{cross_product_3d(phi.t0, polar.q_cov[0]),
+                                      cross_product_3d(phi.t0, polar.q_cov[1])}});
+      const Number spin_strain =
+        turned[0] * phi.a_cov[0] + turned[1] * phi.a_cov[1];
+      auto vectors = combine(direction, polar.q_cov);
+      for (unsigned int g = 0; g < 2; ++g)
+        vectors[g] += spin_strain * polar.spin[g];
+      return vectors;
+    }
+
     /** Strain of the sample @p s (length^2). */
     const Number &
     strain(const unsigned int s) const
@@ -179,20 +289,23 @@ namespace Nacre
     }
 
   private:
+    static std::array<Vector, 2>
+    combine(const std::array<double, 3> &direction,
+            const std::array<Vector, 2> &q)
+    {
+      return {{direction[0] * q[0] + direction[2] * q[1],
+               direction[1] * q[1] + direction[2] * q[0]}};
+    }
+
     void
     set_forces(const MembraneTying &tying, const FullMatrix<double> &stiffness)
     {
       const auto &samples = tying.samples();
       forces_.assign(samples.size(), 0.);
-      resultants_.assign(tying.points().size(), Voigt<Number>());
       for (unsigned int s = 0; s < samples.size(); ++s)
-        {
-          for (unsigned int r = 0; r < samples.size(); ++r)
-            forces_[s] += stiffness(s, r) * strains_[r];
-          for (unsigned int v = 0; v < 3; ++v)
-            resultants_[samples[s].point][v] +=
-              samples[s].direction[v] * forces_[s];
-        }
+        for (unsigned int r = 0; r < samples.size(); ++r)
+          forces_[s] += stiffness(s, r) * strains_[r];
+      set_resultants(tying);
     }
 
     /** By tying point. */
@@ -202,6 +315,40 @@ namespace Nacre
     /** By sample. */
     std::vector<Number> strains_;
     std::vector<Number> forces_;
+  };
+
+  /** The tying points of a side of an edge, for CorotationalMembrane. */
+  class EdgeSideTying
+  {
+  public:
+    EdgeSideTying(const ShellEdgeValues &edge, const unsigned int side)
+      : edge_(edge)
+      , side_(side)
+    {}
+
+    const MembraneTying &
+    tying() const
+    {
+      return edge_.tying(side_);
+    }
+
+    const ShapeTable &
+    tying_shapes() const
+    {
+      // tying() makes them.
+      tying();
+      return edge_.tying_shapes();
+    }
+
+    const SurfaceFrame<> &
+    tying_frame(const unsigned int k) const
+    {
+      return edge_.tying_frames(side_)[k];
+    }
+
+  private:
+    const ShellEdgeValues &edge_;
+    const unsigned int     side_;
   };
 
   /**
@@ -228,6 +375,25 @@ namespace Nacre
             CorotationalStrain::bending(values.frame(q), deformed_[q]);
           moments_[q] = stiffness[q] * strains_[q];
         }
+    }
+
+    /**
+     * Add the part B^T eps of the moments, and B rho to the membrane forces of
+     * @p membrane, which has the strains eps of the same points.
+     * @param coupling B times area and weight at each point
+     */
+    void
+    couple(const MembraneTying              &tying,
+           const std::vector<VoigtMatrix<>> &coupling,
+           CorotationalMembrane<Number>     &membrane)
+    {
+      for (unsigned int q = 0; q < moments_.size(); ++q)
+        {
+          membrane.add_point_force(tying, q, coupling[q] * strains_[q]);
+          moments_[q] +=
+            transpose(coupling[q]) * membrane.tied_strain(tying, q);
+        }
+      membrane.set_resultants(tying);
     }
 
     /**

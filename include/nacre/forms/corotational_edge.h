@@ -43,6 +43,11 @@ namespace Nacre
    * mu = -H_m(nu, nu)^ab (x,ab - Gamma0^g_ab x,g) of the deformed positions,
    *
    * theta = R t0 . lambda,   m_nn = R t0 . mu + H_m(nu, nu)^ab phi0,ab . t0.
+   *
+   * Sections that couple membrane and bending add nu . B^T eps . nu to m_nn,
+   * eps the tied strain of CorotationalMembrane, whose rotations are those of
+   * the tying points; its share in the forces is not the business of this
+   * class.
    */
   template <typename Number>
   class CorotationalEdgePoint
@@ -71,14 +76,16 @@ namespace Nacre
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
      * @param rotation not used for interior edges
+     * @param membrane the strains of each side, for sections with coupling
      */
     void
-    reinit(const ShellEdgeValues                    &edge,
-           const unsigned int                        q,
-           const SectionLaw                         &section,
-           const double                              penalty,
-           const PrescribedRotation                 &rotation,
-           const std::array<NodeVectors<Number>, 2> &u)
+    reinit(const ShellEdgeValues                             &edge,
+           const unsigned int                                 q,
+           const SectionLaw                                  &section,
+           const double                                       penalty,
+           const PrescribedRotation                          &rotation,
+           const std::array<NodeVectors<Number>, 2>          &u,
+           const std::array<CorotationalMembrane<Number>, 2> &membrane = {})
     {
       n_sides_   = edge.n_sides();
       nu_        = edge.conormal(0, q);
@@ -107,6 +114,10 @@ namespace Nacre
           jump_ += side.jump_factor * (side.normal * side.lambda);
           mean_ += side.mean_factor *
                    (side.normal * side.mu + side.hinge.curvature_moment);
+          if (section.is_coupled())
+            mean_ +=
+              side.mean_factor *
+              (side.hinge.coupling * membrane[s].tied_strain(edge.tying(s), q));
         }
       fluxes_ = hinge_fluxes(edge, q, stiffness_, penalty);
     }

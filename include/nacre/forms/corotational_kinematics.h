@@ -137,6 +137,10 @@ namespace Nacre
     add_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
              LocalTerms                                        &terms);
 
+    /** Strains and stresses of membrane and bending, unless in_step_. */
+    void
+    evaluate_strains(CellPoints &points);
+
     /** Residual and energy of the membrane strain, and rows of the tangent. */
     void
     add_membrane_terms(CellPoints        &points,
@@ -173,13 +177,81 @@ namespace Nacre
     void
     fill_bending_rows(const CellPoints &points, const unsigned int first_row);
 
+    /**
+     * Set eps_rows_ and rho_rows_, the derivatives of the strains at the
+     * points, for sections that couple them.
+     */
+    void
+    fill_strain_rows(const CellPoints &points);
+
+    /** Add the derivatives of B rho to those of the samples' forces. */
+    void
+    add_coupling_to_force_rows(const CellPoints &points);
+
+    /** Add the derivatives of B^T eps to those of the moments. */
+    void
+    add_coupling_to_bending_rows(const CellPoints  &points,
+                                 const unsigned int first_row);
+
     /** terms.tangent += product of the rows, in the cell's order of dofs. */
     void
     add_cell_tangent(LocalTerms &terms);
 
+    /** @name The membrane strain in m_nn, for sections with coupling */
+    //@{
+    /** Set edge_membrane_, in a step those of its ends, too. */
+    void
+    evaluate_edge_membrane(const ShellEdgeValues &edge);
+
+    /** The vectors of a sample's difference in a step, StepDifferences. */
+    std::array<Tensor<1, spacedim>, 2>
+    edge_step_vectors(const ShellEdgeValues       &edge,
+                      const unsigned int           side,
+                      const MembraneTying::Sample &sample) const;
+
+    /** Set membrane_force_row_ and membrane_moment_row_ of a side. */
+    void
+    fill_edge_membrane_rows(const ShellEdgeValues &edge,
+                            const unsigned int     side,
+                            const unsigned int     q,
+                            const Voigt<>         &B_nu);
+
+    /** Add the row's force; @p moment_force is conjugate to m_nn. */
+    void
+    add_edge_membrane_force(const ShellEdgeValues &edge,
+                            const unsigned int     side,
+                            const double           moment_force,
+                            LocalTerms            &terms) const;
+
+    /** The tangent of the point of edge_point_, but for how the row turns. */
+    void
+    add_edge_membrane_tangent(const ShellEdgeValues &edge,
+                              const unsigned int     side,
+                              const unsigned int     q,
+                              LocalTerms            &terms);
+
+    /** How the forces of all points turn. */
+    void
+    add_edge_turn_tangent(const ShellEdgeValues &edge,
+                          const unsigned int     side,
+                          LocalTerms            &terms);
+    //@}
+
     /** Set omega_, jump_row_, mean_row_ of the point of edge_point_. */
     void
     fill_edge_derivatives(const ShellEdgeValues &edge, const unsigned int q);
+
+    /** Residual of the point of ends_edge_point_ and edge_step_. */
+    void
+    add_edge_step_forces(const ShellEdgeValues &edge,
+                         const unsigned int     q,
+                         LocalTerms            &terms);
+
+    /** Rows of the tangent of the point of edge_point_, on all sides. */
+    void
+    add_edge_point_rows(const ShellEdgeValues &edge,
+                        const unsigned int     q,
+                        LocalTerms            &terms);
 
     /** The two rows of the side @p s at the point @p q. */
     void
@@ -232,11 +304,26 @@ namespace Nacre
     /** [sample][3 b + d]: derivatives of the strains and of their forces. */
     FullMatrix<double> sample_rows_;
     FullMatrix<double> force_rows_;
+    /** [3 q + v][3 b + d], for coupled sections only. */
+    FullMatrix<double> eps_rows_;
+    FullMatrix<double> rho_rows_;
     /** Shape functions N_r [r][a], and dg_r [r][c n_dofs + j]. */
     FullMatrix<double> shape_rows_;
     FullMatrix<double> derivative_rows_;
     /** Their product, [a][c n_dofs + j]. */
     FullMatrix<double> product_;
+
+    /**
+     * The part of m_nn that sections with coupling take from the membrane
+     * strain, on each side: the strains, and at the current point the force of
+     * a unit of m_nn and the derivative of m_nn, [3 a + c].
+     */
+    std::array<CorotationalMembrane<double>, 2> edge_membrane_;
+    /** [end of the step][side]. */
+    std::array<std::array<CorotationalMembrane<double>, 2>, 2>
+                                       ends_edge_membrane_;
+    std::array<std::vector<double>, 2> membrane_force_row_;
+    std::array<std::vector<double>, 2> membrane_moment_row_;
 
     CorotationalEdgePoint<double>      edge_point_;
     std::array<NodeVectors<double>, 2> edge_u_;

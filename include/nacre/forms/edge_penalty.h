@@ -18,9 +18,11 @@ namespace Nacre
    *
    * The form is coercive if, on both cells K of every edge, eta is at least
    * eta_K = (h^e / 2) lambda_K, lambda_K (1/length) the largest eigenvalue of
-   * the pair (int_dK m_nn^2 / D ds, int_K rho:H_m:rho dA). Without a user's
+   * the pair (int_dK m_nn^2 / D ds, int_K rho:D:rho dA). Without a user's
    * eta, twice the larger of both cells' eta_K is taken, so that eta^e = max
-   * lambda_K.
+   * lambda_K. For sections that couple membrane and bending the second form is
+   * the whole energy, int eps:A:eps + 2 eps:B:rho + rho:D:rho dA, with tied
+   * membrane strains, as the moments have them.
    *
    * Reduced bending energies (8-node cells with 2 x 2 points) take the bound of
    * full integration, too, as an estimate: a curved cell has modes without any

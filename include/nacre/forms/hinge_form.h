@@ -12,18 +12,27 @@ namespace Nacre
   /**
    * The quantities of the hinge form at one point of one side of an edge, for
    * the shape function of each node: a displacement N e_c has the rotation
-   * rotation[a] * t0_c and the moment moment[a] * t0_c.
+   * rotation[a] * t0_c and the moment moment[a] * t0_c, to which sections with
+   * coupling add that of the membrane strain, membrane_moment[a][c].
    */
   struct HingeSide
   {
     /** theta = t0 . du/dnu of the shape functions, per t0 (1/length). */
     std::vector<double> rotation;
-    /** m_nn = nu . H_m rho . nu of the shape functions, per t0. */
+    /** m_nn = nu . D rho . nu of the shape functions, per t0. */
     std::vector<double> moment;
+    /**
+     * nu . B^T eps . nu of the shape functions times e_c, eps the tied
+     * membrane strain: that of the displacements would bring membrane locking
+     * back through the edges. Empty for sections without coupling.
+     */
+    std::vector<Tensor<1, spacedim>> membrane_moment;
+    /** sigma B nu nu: its product with eps is that moment. */
+    Voigt<>             coupling;
     Tensor<1, spacedim> t0;
-    /** H_m(nu, nu, nu, nu): bending stiffness across the edge. */
+    /** D(nu, nu, nu, nu): bending stiffness across the edge. */
     double stiffness = 0.;
-    /** H_m(nu, nu)^ab phi0,ab . t0, sigma included (force). */
+    /** D(nu, nu)^ab phi0,ab . t0, sigma included (force). */
     double curvature_moment = 0.;
 
     /**
@@ -34,6 +43,20 @@ namespace Nacre
            const unsigned int     side,
            const unsigned int     q,
            const SectionLaw      &section);
+
+    /** m_nn of a displacement @p u of the node @p a alone. */
+    double
+    moment_of(const unsigned int a, const Tensor<1, spacedim> &u) const
+    {
+      const double bending = moment[a] * (t0 * u);
+      return membrane_moment.empty() ? bending :
+                                       bending + membrane_moment[a] * u;
+    }
+
+  private:
+    /** Set membrane_moment from the rows of the tied membrane strain. */
+    void
+    fill_membrane_moment(const FullMatrix<double> &rows, const unsigned int q);
   };
 
   /**
@@ -86,7 +109,7 @@ namespace Nacre
       return mean_moment_;
     }
 
-    /** D = {H_m(nu, nu, nu, nu)} (force times length). */
+    /** D = {D(nu, nu, nu, nu)} (force times length). */
     double
     stiffness() const
     {

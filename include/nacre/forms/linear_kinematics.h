@@ -13,7 +13,9 @@
 namespace Nacre
 {
   /**
-   * Small displacements: cell terms (32)-(33), edges in hinge form,
+   * Small displacements: cell terms (32)-(33) and, for sections that couple
+   * membrane and bending, int eps(v):B:rho(u) + rho(v):B^T:eps(u) dA; edges in
+   * hinge form,
    *
    * a^e(u,v) = int eta^e D [[theta(u)]] [[theta(v)]]       penalty
    *              - {m_nn(v)} [[theta(u)]]                  symmetry
@@ -81,6 +83,16 @@ namespace Nacre
                      const std::vector<VoigtMatrix<>> &stiffness,
                      const Vector<double>             &u,
                      LocalTerms                       &terms);
+
+    /**
+     * int eps(v):B:rho(u) + rho(v):B^T:eps(u) dA with stiffness_, if it is
+     * coupled; a half of its energy counts as membrane, the other as bending
+     * energy, (n:eps)/2 and (m:rho)/2.
+     */
+    void
+    add_coupling_terms(const ShellCellValues &values,
+                       const Vector<double>  &u,
+                       LocalTerms            &terms);
 
     /** Rows whose product is the tangent of the point of hinge_. */
     void

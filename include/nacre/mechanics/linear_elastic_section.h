@@ -48,7 +48,7 @@ namespace Nacre
    * Regions of the mesh may have values of their own.
    */
   class LinearElasticSection
-    : public SectionLaw
+    : public LinearSectionLaw
     , public ParameterAcceptor
   {
   public:
@@ -65,6 +65,13 @@ namespace Nacre
 
     void
     set_regions(const MeshRegions &mesh) override;
+
+    /** Whether regions have values of their own, before prepare(), too. */
+    bool
+    has_regions() const
+    {
+      return !regions_text_.empty();
+    }
 
     double
     thickness(const SectionPoint &point) const override;

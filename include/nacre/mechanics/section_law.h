@@ -9,6 +9,8 @@
 
 #include <deal.II/base/types.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,18 +40,56 @@ namespace Nacre
     types::material_id region_;
   };
 
-  /** Stiffness of a section, covariant basis, Voigt [resultant][strain]. */
+  /**
+   * The tangent of a section, covariant basis, Voigt [resultant][strain]:
+   *   dn = A deps + B drho,   dm = B^T deps + D drho.
+   */
   struct SectionStiffness
   {
-    /** H_n: membrane forces n^ab from membrane strains. */
+    /** A: membrane forces n^ab from membrane strains (H_n, (8)). */
     VoigtMatrix<> membrane;
-    /** H_m: moments m^ab from bending strains. */
+    /** D: moments m^ab from bending strains (H_m, (9)). */
     VoigtMatrix<> bending;
+    /** B: membrane forces from bending strains; zero if not coupled. */
+    VoigtMatrix<> coupling = {};
+  };
+
+  /** What a section answers to strains; covariant basis, Voigt. */
+  struct SectionResponse
+  {
+    /** n^ab (force/length^3 in the covariant basis). */
+    Voigt<> membrane_force;
+    /** m^ab (force/length^2 in the covariant basis). */
+    Voigt<> moment;
+    /** A, B, D at these strains. */
+    SectionStiffness tangent;
+    /** w per area of the undeformed surface (force/length). */
+    double energy = 0.;
+  };
+
+  /**
+   * The strains and stresses of a layer of a section at its lower and upper
+   * face, in the axes 1, 2 of its material, Voigt (11, 22, 2 * 12) and
+   * (11, 22, 12).
+   */
+  struct LayerState
+  {
+    /** At the lower face and at the upper one. */
+    std::array<Voigt<>, 2> strain, stress;
+    /**
+     * The larger of both faces' failure indices; 1 at failure. None if the
+     * material has no strengths.
+     */
+    std::optional<double> tsai_wu, maximum_stress;
   };
 
   /**
    * The law of a section: how membrane forces and moments follow from strains.
-   * To add one, derive from this class and hand it to ConvergenceStudy.
+   * To add a linear one, derive from LinearSectionLaw, otherwise from this
+   * class, and hand it to ConvergenceStudy.
+   *
+   * Strains are those of the reference surface: a fibre at the distance z
+   * along t0 has the strain eps + z rho.
    */
   class SectionLaw
   {
@@ -95,9 +135,99 @@ namespace Nacre
     virtual double
     density(const SectionPoint &point) const = 0;
 
-    /** H_n and H_m, (8)-(10), at @p point with the surface's @p frame. */
+    /**
+     * Membrane forces, moments, tangent and energy at @p point with the
+     * surface's @p frame.
+     * @param membrane_strain eps (e11, e22, 2 e12) (length^2)
+     * @param bending_strain rho (r11, r22, 2 r12) (length)
+     */
+    virtual SectionResponse
+    response(const Voigt<>        &membrane_strain,
+             const Voigt<>        &bending_strain,
+             const SurfaceFrame<> &frame,
+             const SectionPoint   &point) const = 0;
+
+    /** The tangent at rest; for linear laws at all strains. */
     virtual SectionStiffness
-    stiffness(const SurfaceFrame<> &frame, const SectionPoint &point) const = 0;
+    stiffness(const SurfaceFrame<> &frame, const SectionPoint &point) const
+    {
+      return response(Voigt<>(), Voigt<>(), frame, point).tangent;
+    }
+
+    /** Whether the tangent is the same for all strains. */
+    virtual bool
+    is_linear() const = 0;
+
+    /**
+     * Whether B differs from zero anywhere. Forms that know it to be zero
+     * save the terms that couple membrane and bending.
+     */
+    virtual bool
+    is_coupled() const = 0;
+
+    /**
+     * The stress at z = @p side h/2 from the middle of the section, -1 <= side
+     * <= 1 along t0, in the covariant basis, Voigt (force/length^4). Here that
+     * of a homogeneous elastic section, n/h + 6 side m/h^2.
+     */
+    virtual Voigt<>
+    stress(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const double          side,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point) const;
+
+    /**
+     * The state of the layers, bottom to top; none if the section is
+     * homogeneous.
+     */
+    virtual std::vector<LayerState>
+    layers(const Voigt<> & /*membrane_strain*/,
+           const Voigt<> & /*bending_strain*/,
+           const SurfaceFrame<> & /*frame*/,
+           const SectionPoint & /*point*/) const
+    {
+      return {};
+    }
+
+    /** The largest number of layers at any point. */
+    virtual unsigned int
+    n_layers() const
+    {
+      return 0;
+    }
+  };
+
+  /**
+   * A linear law: n = A eps + B rho, m = B^T eps + D rho,
+   * w = (n : eps + m : rho)/2, with the stiffness of the derived class.
+   */
+  class LinearSectionLaw : public SectionLaw
+  {
+  public:
+    /** A, B, D at @p point with the surface's @p frame. */
+    SectionStiffness
+    stiffness(const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const override = 0;
+
+    SectionResponse
+    response(const Voigt<>        &membrane_strain,
+             const Voigt<>        &bending_strain,
+             const SurfaceFrame<> &frame,
+             const SectionPoint   &point) const override;
+
+    bool
+    is_linear() const override
+    {
+      return true;
+    }
+
+    /** Of laws without B; those with it say so. */
+    bool
+    is_coupled() const override
+    {
+      return false;
+    }
   };
 } // namespace Nacre
 

@@ -4,7 +4,7 @@
 #ifndef nacre_simulation_convergence_study_h
 #define nacre_simulation_convergence_study_h
 
-#include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/mechanics/shell_section.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/simulation/adaptive_refinement.h>
 #include <nacre/simulation/recorder.h>
@@ -30,9 +30,9 @@ namespace Nacre
   class ConvergenceStudy : public ParameterAcceptor
   {
   public:
-    explicit ConvergenceStudy(const MPI_Comm              communicator,
-                              std::unique_ptr<SectionLaw> section =
-                                std::make_unique<LinearElasticSection>());
+    explicit ConvergenceStudy(
+      const MPI_Comm              communicator,
+      std::unique_ptr<SectionLaw> section = std::make_unique<ShellSection>());
     ~ConvergenceStudy() override;
 
     /**

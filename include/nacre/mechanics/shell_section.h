@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_mechanics_shell_section_h
+#define nacre_mechanics_shell_section_h
+
+#include <nacre/mechanics/laminate_section.h>
+#include <nacre/mechanics/linear_elastic_section.h>
+
+namespace Nacre
+{
+  /** The section that 'Section/Type' chooses. */
+  class ShellSection
+    : public SectionLaw
+    , public ParameterAcceptor
+  {
+  public:
+    ShellSection();
+
+    void
+    prepare(const Constants &constants) override;
+
+    void
+    set_thickness(const double thickness) override
+    {
+      choose();
+      chosen_->set_thickness(thickness);
+    }
+
+    Constants
+    named_constants() const override
+    {
+      return chosen_->named_constants();
+    }
+
+    void
+    set_regions(const MeshRegions &mesh) override
+    {
+      chosen_->set_regions(mesh);
+    }
+
+    double
+    thickness(const SectionPoint &point) const override
+    {
+      return chosen_->thickness(point);
+    }
+
+    double
+    density(const SectionPoint &point) const override
+    {
+      return chosen_->density(point);
+    }
+
+    SectionResponse
+    response(const Voigt<>        &membrane_strain,
+             const Voigt<>        &bending_strain,
+             const SurfaceFrame<> &frame,
+             const SectionPoint   &point) const override
+    {
+      return chosen_->response(membrane_strain, bending_strain, frame, point);
+    }
+
+    SectionStiffness
+    stiffness(const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const override
+    {
+      return chosen_->stiffness(frame, point);
+    }
+
+    bool
+    is_linear() const override
+    {
+      return chosen_->is_linear();
+    }
+
+    bool
+    is_coupled() const override
+    {
+      return chosen_->is_coupled();
+    }
+
+    Voigt<>
+    stress(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const double          side,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point) const override
+    {
+      return chosen_->stress(membrane_strain,
+                             bending_strain,
+                             side,
+                             frame,
+                             point);
+    }
+
+    std::vector<LayerState>
+    layers(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point) const override
+    {
+      return chosen_->layers(membrane_strain, bending_strain, frame, point);
+    }
+
+    unsigned int
+    n_layers() const override
+    {
+      return chosen_->n_layers();
+    }
+
+  private:
+    /** Set chosen_ from the parameter, which may have changed. */
+    void
+    choose();
+
+    std::string          type_ = "isotropic";
+    LinearElasticSection isotropic_;
+    LaminateSection      laminate_;
+    SectionLaw          *chosen_ = &isotropic_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_strain_values_h
+#define nacre_postprocess_strain_values_h
+
+#include <nacre/discretization/shell_values.h>
+#include <nacre/forms/kinematics_options.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+#include <deal.II/lac/vector.h>
+
+namespace Nacre
+{
+  /**
+   * The strains of a displacement at any points of one cell after the other,
+   * as results take them: tied membrane strains where recovers_tied_strain()
+   * says so; for large rotations the strains that no rotation changes,
+   * 1/2 (phi,a . phi,b - phi0,a . phi0,b) and -(phi,ab . t) + phi0,ab . t0,
+   * which are those of the co-rotational form as long as they are small.
+   */
+  class StrainValues
+  {
+  public:
+    /**
+     * @param points in the reference cell
+     * @param displacement ghosted (length); must live as long
+     */
+    StrainValues(const Discretization                &discretization,
+                 const Quadrature<dim>               &points,
+                 const KinematicsOptions             &kinematics,
+                 const TrilinosWrappers::MPI::Vector &displacement);
+
+    void
+    reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell);
+
+    /** Frames and positions of the undeformed surface. */
+    const ShellCellValues &
+    values() const
+    {
+      return values_;
+    }
+
+    /** Covariant (e11, e22, 2 e12) (length^2). */
+    Voigt<>
+    membrane(const unsigned int q) const
+    {
+      return component(membrane_, q);
+    }
+
+    /** Covariant (r11, r22, 2 r12) (length). */
+    Voigt<>
+    bending(const unsigned int q) const
+    {
+      return component(bending_, q);
+    }
+
+    /** The displacement (length). */
+    Tensor<1, spacedim>
+    displacement(const unsigned int q) const;
+
+  private:
+    static Voigt<>
+    component(const Vector<double> &strains, const unsigned int q)
+    {
+      return Voigt<>({strains[3 * q], strains[3 * q + 1], strains[3 * q + 2]});
+    }
+
+    /** phi,1, phi,2 at the point @p q of a table. */
+    std::array<Tensor<1, spacedim>, dim>
+    deformed_basis(const SurfaceFrame<> &frame,
+                   const ShapeTable     &shapes,
+                   const unsigned int    q) const;
+
+    void
+    fill_finite_strains();
+
+    const bool                           is_linear_;
+    const TrilinosWrappers::MPI::Vector &displacement_;
+    ShellCellValues                      values_;
+    Vector<double>                       u_;
+    /** [3 point + component] */
+    Vector<double> membrane_;
+    Vector<double> bending_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/postprocess/strain_values.h>
+
+namespace Nacre
+{
+  StrainValues::StrainValues(const Discretization    &discretization,
+                             const Quadrature<dim>   &points,
+                             const KinematicsOptions &kinematics,
+                             const TrilinosWrappers::MPI::Vector &displacement)
+    : is_linear_(kinematics.model == KinematicsModel::linear)
+    , displacement_(displacement)
+    , values_(discretization,
+              points,
+              recovers_tied_strain(kinematics.membrane_strain))
+    , u_(values_.n_dofs())
+    , membrane_(3 * points.size())
+    , bending_(3 * points.size())
+  {}
+
+  void
+  StrainValues::reinit(
+    const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+  {
+    cell->get_dof_values(displacement_, u_);
+    if (is_linear_)
+      {
+        values_.reinit(cell);
+        values_.membrane_rows().vmult(membrane_, u_);
+        values_.bending_rows().vmult(bending_, u_);
+      }
+    else
+      {
+        values_.reinit_frames(cell);
+        fill_finite_strains();
+      }
+  }
+
+  Tensor<1, spacedim>
+  StrainValues::displacement(const unsigned int q) const
+  {
+    Tensor<1, spacedim> u;
+    for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        u[c] += values_.shapes().value(q, a) * u_[values_.dof(a, c)];
+    return u;
+  }
+
+  std::array<Tensor<1, spacedim>, dim>
+  StrainValues::deformed_basis(const SurfaceFrame<> &frame,
+                               const ShapeTable     &shapes,
+                               const unsigned int    q) const
+  {
+    auto phi = frame.a_cov;
+    for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        for (unsigned int alpha = 0; alpha < dim; ++alpha)
+          phi[alpha][c] += shapes.gradient(q, a)[alpha] * u_[values_.dof(a, c)];
+    return phi;
+  }
+
+  void
+  StrainValues::fill_finite_strains()
+  {
+    const auto         &tying = values_.tying();
+    std::vector<double> samples;
+    for (const auto &[point, direction] : tying.samples())
+      {
+        const auto &frame = values_.tying_frame(point);
+        const auto  phi = deformed_basis(frame, values_.tying_shapes(), point);
+        const auto &a   = frame.a_cov;
+        samples.push_back(0.5 * direction[0] * (phi[0] * phi[0] - a[0] * a[0]) +
+                          0.5 * direction[1] * (phi[1] * phi[1] - a[1] * a[1]) +
+                          direction[2] * (phi[0] * phi[1] - a[0] * a[1]));
+      }
+    const auto &shapes = values_.shapes();
+    for (unsigned int q = 0; q < values_.n_points(); ++q)
+      {
+        const auto &frame = values_.frame(q);
+        const auto  phi   = deformed_basis(frame, shapes, q);
+        auto        ddphi = frame.a_cov_derivatives;
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            for (unsigned int v = 0; v < 3; ++v)
+              ddphi[v][c] += shapes.hessian(q, a)[v] * u_[values_.dof(a, c)];
+        const Tensor<1, spacedim> area = cross_product_3d(phi[0], phi[1]);
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            double strain = 0.;
+            for (const auto &[k, weight] : tying.weights(q, v))
+              strain += weight * samples[k];
+            membrane_[3 * q + v] = strain;
+            bending_[3 * q + v] =
+              (v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0 -
+                                    ddphi[v] * area / area.norm());
+          }
+      }
+  }
+} // namespace Nacre
