@@ -8,9 +8,24 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <sstream>
 
 namespace Nacre::Text
 {
+  std::string
+  number(const double value)
+  {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+  }
+
+  bool
+  begins_with(const std::string &text, const std::string &begin)
+  {
+    return text.compare(0, begin.size(), begin) == 0;
+  }
+
   using dealii::ExcMessage;
 
   namespace

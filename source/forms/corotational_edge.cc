@@ -19,23 +19,6 @@ namespace Nacre
             rotation.turn * (cosine * t0 - sine * nu)};
   }
 
-  namespace
-  {
-    /** Displacements of a side's nodes; zero if @p u is empty. */
-    void
-    extract_edge_nodes(const ShellEdgeValues &edge,
-                       const unsigned int     side,
-                       const Vector<double>  &u,
-                       NodeVectors<double>   &nodes)
-    {
-      nodes.assign(edge.shapes(side).n_nodes(), Tensor<1, spacedim>());
-      if (u.size() != 0)
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            nodes[a][c] = u[edge.dof(side, a, c)];
-    }
-  } // namespace
-
   void
   CorotationalKinematics::add_edge_terms(const ShellEdgeValues &edge,
                                          const double           penalty,
@@ -59,7 +42,7 @@ namespace Nacre
   {
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
-      extract_edge_nodes(edge, s, u, edge_u_[s]);
+      extract_nodes(edge, s, u, edge_u_[s]);
     in_step_ = false;
     evaluate_edge_membrane(edge);
     if (terms.wants_tangent)
@@ -124,7 +107,7 @@ namespace Nacre
                                        const Vector<double>     &u)
   {
     in_step_ = false;
-    extract_edge_nodes(edge, 0, u, edge_u_[0]);
+    extract_nodes(edge, 0, u, edge_u_[0]);
     evaluate_edge_membrane(edge);
     edge_point_
       .reinit(edge, q, section_, 1., rotation, edge_u_, edge_membrane_);
@@ -182,8 +165,8 @@ namespace Nacre
     const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
-        extract_edge_nodes(edge, s, u_start, ends_edge_u_[0][s]);
-        extract_edge_nodes(edge, s, u_end, ends_edge_u_[1][s]);
+        extract_nodes(edge, s, u_start, ends_edge_u_[0][s]);
+        extract_nodes(edge, s, u_end, ends_edge_u_[1][s]);
         edge_u_[s].resize(n_nodes);
         for (unsigned int a = 0; a < n_nodes; ++a)
           edge_u_[s][a] = 0.5 * (ends_edge_u_[0][s][a] + ends_edge_u_[1][s][a]);
@@ -439,7 +422,7 @@ namespace Nacre
   {
     const auto             &shapes = edge.shapes(0);
     FollowingMoment<double> load;
-    extract_edge_nodes(edge, 0, u, edge_u_[0]);
+    extract_nodes(edge, 0, u, edge_u_[0]);
     force_.assign(shapes.n_nodes(), Tensor<1, spacedim>());
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {

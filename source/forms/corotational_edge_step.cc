@@ -12,11 +12,6 @@ namespace Nacre
   {
     using Vector3 = Tensor<1, spacedim>;
 
-    Vector3
-    mean(const Vector3 &start, const Vector3 &end)
-    {
-      return 0.5 * (start + end);
-    }
   } // namespace
 
   void
@@ -32,15 +27,18 @@ namespace Nacre
     for (unsigned int s = 0; s < n_sides_; ++s)
       {
         // The forces are linear in [[theta]] and {m_nn}: means, too.
-        Side &side  = sides_[s];
-        side.hinge  = start.side(s).hinge;
-        side.normal = mean(start.side(s).normal, end.side(s).normal);
+        Side &side = sides_[s];
+        side.hinge = start.side(s).hinge;
+        side.normal =
+          StepDifferences::mean(start.side(s).normal, end.side(s).normal);
         side.rotation_force =
           0.5 * (start.rotation_force(s) + end.rotation_force(s));
         side.moment_force = 0.5 * (start.moment_force(s) + end.moment_force(s));
         side.normal_force =
-          side.rotation_force * mean(start.side(s).lambda, end.side(s).lambda) +
-          side.moment_force * mean(start.side(s).mu, end.side(s).mu);
+          side.rotation_force *
+            StepDifferences::mean(start.side(s).lambda, end.side(s).lambda) +
+          side.moment_force *
+            StepDifferences::mean(start.side(s).mu, end.side(s).mu);
         side.basis_forces = {};
       }
     if (n_sides_ == 2)
@@ -62,10 +60,10 @@ namespace Nacre
     const CorotationalEdgePoint<double> &end)
   {
     const double  sigma[2] = {1., edge.sigma(1, q)};
-    const Vector3 b        = mean(start.binormal(), end.binormal());
-    const Vector3 t        = mean(start.normal(), end.normal());
-    const Vector3 e =
-      mean(start.stretch() * start.tangent(), end.stretch() * end.tangent());
+    const Vector3 b = StepDifferences::mean(start.binormal(), end.binormal());
+    const Vector3 t = StepDifferences::mean(start.normal(), end.normal());
+    const Vector3 e = StepDifferences::mean(start.stretch() * start.tangent(),
+                                            end.stretch() * end.tangent());
     std::array<SurfaceFrame<>, 2> frames;
     Vector3                       T, force_b, force_t;
     for (unsigned int s = 0; s < 2; ++s)
@@ -105,12 +103,12 @@ namespace Nacre
       std::tie(p_b[k], p_t[k]) = prescribed_frame(edge.conormal(0, q),
                                                   edge.frame(0, q).t0,
                                                   rotations[k]);
-    const Vector3 p_b_m = mean(p_b[0], p_b[1]);
-    const Vector3 p_t_m = mean(p_t[0], p_t[1]);
-    const Vector3 b     = mean(start.binormal(), end.binormal());
-    const Vector3 t     = mean(start.normal(), end.normal());
-    const Vector3 e =
-      mean(start.stretch() * start.tangent(), end.stretch() * end.tangent());
+    const Vector3 p_b_m = StepDifferences::mean(p_b[0], p_b[1]);
+    const Vector3 p_t_m = StepDifferences::mean(p_t[0], p_t[1]);
+    const Vector3 b = StepDifferences::mean(start.binormal(), end.binormal());
+    const Vector3 t = StepDifferences::mean(start.normal(), end.normal());
+    const Vector3 e = StepDifferences::mean(start.stretch() * start.tangent(),
+                                            end.stretch() * end.tangent());
     // Delta(t) = spin b* - (t . Delta(e)) e*,
     // Delta(b) = -spin t* - (b . Delta(e)) e*, and p_b . t = p_t . b gives
     // spin = ((t . Delta(e)) p_b . e* - (b . Delta(e)) p_t . e*

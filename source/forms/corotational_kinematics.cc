@@ -10,29 +10,6 @@ namespace Nacre
   {
     using Vector3 = Tensor<1, spacedim>;
 
-    /** y += v x. */
-    NACRE_SIMD void
-    add_scaled(const unsigned int  n,
-               const double        v,
-               const double *const x,
-               double *__restrict const y)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-        y[j] += v * x[j];
-    }
-
-    /** Displacements of the nodes; zero if @p u is empty. */
-    void
-    extract_nodes(const ShellCellValues &values,
-                  const Vector<double>  &u,
-                  NodeVectors<double>   &nodes)
-    {
-      nodes.assign(values.shapes().n_nodes(), Vector3());
-      if (u.size() != 0)
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            nodes[a][c] = u[values.dof(a, c)];
-    }
   } // namespace
 
   FullMatrix<double>

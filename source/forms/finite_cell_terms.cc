@@ -14,30 +14,6 @@ namespace Nacre
     /** Rows of a point in test_rows_ and trial_rows_. */
     constexpr unsigned int n_rows = 8;
 
-    /** Displacements of the nodes; zero if @p u is empty. */
-    void
-    extract_nodes(const ShellCellValues &values,
-                  const Vector<double>  &u,
-                  NodeVectors<double>   &nodes)
-    {
-      nodes.assign(values.shapes().n_nodes(), Vector3());
-      if (u.size() != 0)
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            nodes[a][c] = u[values.dof(a, c)];
-    }
-
-    /** y += v x. */
-    NACRE_SIMD void
-    add_scaled(const unsigned int  n,
-               const double        v,
-               const double *const x,
-               double *__restrict const y)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-        y[j] += v * x[j];
-    }
-
     /** The three rows @p to += factor D times the three rows @p from. */
     NACRE_SIMD void
     add_stress_rows(const double *const D,

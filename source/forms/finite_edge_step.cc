@@ -13,17 +13,12 @@ namespace Nacre
     using Vector3   = Tensor<1, spacedim>;
     using EdgePoint = FiniteEdgePoint<double>;
 
-    Vector3
-    mean(const Vector3 &start, const Vector3 &end)
-    {
-      return 0.5 * (start + end);
-    }
-
     /** e = dx/ds, mean of both ends. */
     Vector3
     mean_edge(const EdgePoint::Side &start, const EdgePoint::Side &end)
     {
-      return mean(start.length * start.tangent, end.length * end.tangent);
+      return StepDifferences::mean(start.length * start.tangent,
+                                   end.length * end.tangent);
     }
 
     /** nu0^alpha of a side. */
@@ -74,9 +69,12 @@ namespace Nacre
     const double  scale = half == 0. ? 1. : half / std::sin(half);
     const double  of_x  = -force * scale * std::sin(alpha);
     const double  of_y  = force * scale * std::cos(alpha);
-    const Vector3 t     = mean(start.side(0).normal, end.side(0).normal);
-    const Vector3 nu    = mean(start.side(0).conormal, end.side(0).conormal);
-    const Vector3 t_plus = mean(start.normal_plus(), end.normal_plus());
+    const Vector3 t =
+      StepDifferences::mean(start.side(0).normal, end.side(0).normal);
+    const Vector3 nu =
+      StepDifferences::mean(start.side(0).conormal, end.side(0).conormal);
+    const Vector3 t_plus =
+      StepDifferences::mean(start.normal_plus(), end.normal_plus());
 
     sides_[0].normal_force   = of_x * t_plus;
     sides_[0].conormal_force = -of_y * t_plus;
@@ -101,13 +99,14 @@ namespace Nacre
       std::tie(p_b[k], p_t[k]) = prescribed_frame(edge.conormal(0, q),
                                                   edge.frame(0, q).t0,
                                                   rotations[k]);
-    const Vector3 p_b_m = mean(p_b[0], p_b[1]);
-    const Vector3 p_t_m = mean(p_t[0], p_t[1]);
-    const Vector3 t     = mean(start.normal_plus(), end.normal_plus());
+    const Vector3 p_b_m = StepDifferences::mean(p_b[0], p_b[1]);
+    const Vector3 p_t_m = StepDifferences::mean(p_t[0], p_t[1]);
+    const Vector3 t =
+      StepDifferences::mean(start.normal_plus(), end.normal_plus());
     // b = t x d is the prescribed conormal, turned with the edge.
-    const Vector3 b =
-      mean(cross_product_3d(start.normal_plus(), start.side(0).tangent),
-           cross_product_3d(end.normal_plus(), end.side(0).tangent));
+    const Vector3 b = StepDifferences::mean(
+      cross_product_3d(start.normal_plus(), start.side(0).tangent),
+      cross_product_3d(end.normal_plus(), end.side(0).tangent));
     const Vector3 e = mean_edge(start.side(0), end.side(0));
     // CorotationalEdgeStep::turn_as_prescribed()
     const auto   dual = StepDifferences::dual_basis(t, b, e);
@@ -134,14 +133,19 @@ namespace Nacre
     const double  moment = 0.5 * (first.moment + last.moment);
     const auto    nu_con = conormal_components(edge, s, q);
     const Vector3 p =
-      nu_con[0] * mean(first.deformed.a_cov[0], last.deformed.a_cov[0]) +
-      nu_con[1] * mean(first.deformed.a_cov[1], last.deformed.a_cov[1]);
+      nu_con[0] *
+        StepDifferences::mean(first.deformed.a_cov[0], last.deformed.a_cov[0]) +
+      nu_con[1] *
+        StepDifferences::mean(first.deformed.a_cov[1], last.deformed.a_cov[1]);
     // Delta(m) = -(Delta(Y) . t + Y . Delta(t))
-    side.moment_force = -(force * lambda) * mean(first.normal, last.normal);
-    side.normal_force -= (force * lambda) * mean(first.Y, last.Y);
+    side.moment_force =
+      -(force * lambda) * StepDifferences::mean(first.normal, last.normal);
+    side.normal_force -=
+      (force * lambda) * StepDifferences::mean(first.Y, last.Y);
     // Delta(lambda) = Delta(nu) . p + nu . Delta(p)
     side.conormal_force += (force * moment) * p;
-    side.stretch_force = (force * moment) * mean(first.conormal, last.conormal);
+    side.stretch_force =
+      (force * moment) * StepDifferences::mean(first.conormal, last.conormal);
   }
 
   void
@@ -154,8 +158,8 @@ namespace Nacre
     const auto   &first = start.side(s);
     const auto   &last  = end.side(s);
     Side         &side  = sides_[s];
-    const Vector3 t     = mean(first.normal, last.normal);
-    const Vector3 nu    = mean(first.conormal, last.conormal);
+    const Vector3 t     = StepDifferences::mean(first.normal, last.normal);
+    const Vector3 nu    = StepDifferences::mean(first.conormal, last.conormal);
     const Vector3 e     = mean_edge(first, last);
     // Delta(nu) = -(nu . Delta(e)) dual[0] - (nu . Delta(t)) dual[1]
     const auto dual = StepDifferences::dual_basis(e, t, nu);

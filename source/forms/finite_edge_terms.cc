@@ -11,19 +11,6 @@ namespace Nacre
   {
     using Vector3 = Tensor<1, spacedim>;
 
-    /** Displacements of a side's nodes; zero if @p u is empty. */
-    void
-    extract_nodes(const ShellEdgeValues &edge,
-                  const unsigned int     side,
-                  const Vector<double>  &u,
-                  NodeVectors<double>   &nodes)
-    {
-      nodes.assign(edge.shapes(side).n_nodes(), Vector3());
-      if (u.size() != 0)
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            nodes[a][c] = u[edge.dof(side, a, c)];
-    }
   } // namespace
 
   FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,

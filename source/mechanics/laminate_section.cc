@@ -16,18 +16,10 @@ namespace Nacre
     const std::string parameters = "Section/Laminate/";
 
     std::string
-    to_text(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
-
-    std::string
     to_text(const Point<3> &point)
     {
-      return "(" + to_text(point[0]) + ", " + to_text(point[1]) + ", " +
-             to_text(point[2]) + ")";
+      return "(" + Text::number(point[0]) + ", " + Text::number(point[1]) +
+             ", " + Text::number(point[2]) + ")";
     }
 
     double
@@ -36,8 +28,9 @@ namespace Nacre
                       const Point<3>    &point)
     {
       AssertThrow(value > 0.,
-                  ExcMessage(where + ": " + to_text(value) + " at the point " +
-                             to_text(point) + "; it must be positive."));
+                  ExcMessage(where + ": " + Text::number(value) +
+                             " at the point " + to_text(point) +
+                             "; it must be positive."));
       return value;
     }
 
@@ -74,7 +67,7 @@ namespace Nacre
           values[key] = evaluate_number(value, what, constants);
           AssertThrow(key == "nu12" || values[key] > 0. ||
                         (key == "density" && values[key] == 0.),
-                      ExcMessage(what + ": " + to_text(values[key]) +
+                      ExcMessage(what + ": " + Text::number(values[key]) +
                                  (key == "density" ?
                                     "; it must not be negative." :
                                     "; it must be positive.")));
@@ -101,8 +94,8 @@ namespace Nacre
       const double product =
         material.nu12 * material.nu12 * material.E2 / material.E1;
       AssertThrow(product < 1.,
-                  ExcMessage(where + ", nu12: " + to_text(material.nu12) +
-                             "; nu12^2 E2/E1 is " + to_text(product) +
+                  ExcMessage(where + ", nu12: " + Text::number(material.nu12) +
+                             "; nu12^2 E2/E1 is " + Text::number(product) +
                              " and must be smaller than 1."));
       unsigned int n_strengths = 0;
       for (const char *const key : {"Xt", "Xc", "Yt", "Yc", "S"})

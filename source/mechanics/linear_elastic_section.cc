@@ -13,24 +13,16 @@ namespace Nacre
   namespace
   {
     /** To print also the tiny numbers that std::to_string makes 0. */
-    std::string
-    to_text(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
-
     const char *const regions_parameter = "Section/Regions";
 
     double
     positive(const double value, const std::string &what, const Point<3> &point)
     {
       AssertThrow(value > 0.,
-                  ExcMessage(what + ": " + to_text(value) + " at the point (" +
-                             to_text(point[0]) + ", " + to_text(point[1]) +
-                             ", " + to_text(point[2]) +
-                             "); it must be positive."));
+                  ExcMessage(
+                    what + ": " + Text::number(value) + " at the point (" +
+                    Text::number(point[0]) + ", " + Text::number(point[1]) +
+                    ", " + Text::number(point[2]) + "); it must be positive."));
       return value;
     }
 
@@ -38,7 +30,7 @@ namespace Nacre
     checked_nu(const double nu, const std::string &where)
     {
       AssertThrow(nu > -1. && nu < 0.5,
-                  ExcMessage(where + ": " + to_text(nu) +
+                  ExcMessage(where + ": " + Text::number(nu) +
                              "; it must be larger than -1 and smaller than "
                              "0.5."));
       return nu;
@@ -224,7 +216,7 @@ namespace Nacre
                 ExcMessage(
                   std::string(own == nullptr ? "Section/Density" :
                                                "Section/Regions, density") +
-                  ": " + to_text(value) + "; it must not be negative."));
+                  ": " + Text::number(value) + "; it must not be negative."));
     return value;
   }
 

@@ -10,11 +10,11 @@ namespace Nacre
 {
   namespace
   {
-    using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+    using DoFCell = DoFHandler<dim, spacedim>::active_cell_iterator;
 
     /** Append the dofs of @p cell at and next to its vertex @p v. */
     void
-    add_dofs(const cell_iterator                        &cell,
+    add_dofs(const DoFCell                              &cell,
              const unsigned int                          v,
              const std::vector<types::global_dof_index> &cell_dofs,
              std::vector<types::global_dof_index>       &dofs)
@@ -53,7 +53,7 @@ namespace Nacre
     const auto &triangulation = discretization.triangulation();
     const auto  me            = triangulation.locally_owned_subdomain();
 
-    std::vector<cell_iterator>       cells;
+    std::vector<DoFCell>             cells;
     std::vector<std::vector<Corner>> corners(triangulation.n_vertices());
     for (const auto &cell :
          discretization.dof_handler().active_cell_iterators())

@@ -21,14 +21,6 @@ namespace Nacre
   {
     using Vector3 = Tensor<1, spacedim>;
 
-    Vector3
-    axis(const unsigned int c)
-    {
-      Vector3 e;
-      e[c] = 1.;
-      return e;
-    }
-
     /** The direction x, y, z, (a, b, c); none for "normal". */
     std::optional<Vector3>
     parse_direction(const std::string &text,
@@ -39,7 +31,7 @@ namespace Nacre
         return {};
       for (unsigned int c = 0; c < spacedim; ++c)
         if (text == std::string(1, "xyz"[c]))
-          return axis(c);
+          return Point<spacedim>::unit_vector(c);
       AssertThrow(
         !text.empty() && text.front() == '(',
         ExcMessage(Text::unknown_name(where,

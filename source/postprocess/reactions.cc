@@ -19,15 +19,7 @@ namespace Nacre
     using Vector3 = Tensor<1, spacedim>;
     using Dofs    = std::array<types::global_dof_index, spacedim>;
     /** A displacement by the position X and the displacement u. */
-    using Field = std::function<Vector3(const Vector3 &, const Vector3 &)>;
-
-    Vector3
-    axis(const unsigned int c)
-    {
-      Vector3 e;
-      e[c] = 1.;
-      return e;
-    }
+    using Motion = std::function<Vector3(const Vector3 &, const Vector3 &)>;
 
     /** Call @p use(position, dofs) for the nodes of @p edges on own cells. */
     template <typename Function>
@@ -93,7 +85,7 @@ namespace Nacre
                   const DisplacementConditions &conditions,
                   const Supports               &supports,
                   const Vector                 *u,
-                  const Field                  &field)
+                  const Motion                 &field)
     {
       const auto      communicator = discretization.communicator();
       const IndexSet &owned        = discretization.locally_owned_dofs();
@@ -278,8 +270,12 @@ namespace Nacre
     supports.all = true;
     for (unsigned int c = 0; c < spacedim; ++c)
       {
-        reactions.force[c]  = reaction(shell, supports, axis(c));
-        reactions.moment[c] = reaction_moment(shell, supports, axis(c), origin);
+        reactions.force[c] =
+          reaction(shell, supports, Point<spacedim>::unit_vector(c));
+        reactions.moment[c] = reaction_moment(shell,
+                                              supports,
+                                              Point<spacedim>::unit_vector(c),
+                                              origin);
       }
 
     Vector f(shell.discretization.locally_owned_dofs(),

@@ -88,7 +88,7 @@ namespace Nacre
     }
 
     /** A field of the output: name, rank, and how to compute it. */
-    struct Field
+    struct OutputField
     {
       std::string                                 name;
       Interpretation::DataComponentInterpretation interpretation;
@@ -96,7 +96,7 @@ namespace Nacre
       std::function<double(const PointState &, const unsigned int)> component;
     };
 
-    Field
+    OutputField
     scalar(const std::string                               &name,
            const std::function<double(const PointState &)> &value)
     {
@@ -108,7 +108,7 @@ namespace Nacre
               }};
     }
 
-    Field
+    OutputField
     vector(const std::string                                &name,
            const std::function<Vector3(const PointState &)> &value)
     {
@@ -120,7 +120,7 @@ namespace Nacre
               }};
     }
 
-    Field
+    OutputField
     tensor(const std::string                                &name,
            const std::function<Tensor3(const PointState &)> &value)
     {
@@ -133,11 +133,11 @@ namespace Nacre
     }
 
     /** The fields of @p n_layers layers. */
-    std::vector<Field>
+    std::vector<OutputField>
     layer_fields(const unsigned int n_layers)
     {
-      using S                 = const PointState &;
-      std::vector<Field> list = {
+      using S                       = const PointState &;
+      std::vector<OutputField> list = {
         scalar("tsai_wu", [](S s) { return s.largest(&LayerState::tsai_wu); }),
         scalar("maximum_stress",
                [](S s) { return s.largest(&LayerState::maximum_stress); })};
@@ -157,11 +157,11 @@ namespace Nacre
     }
 
     /** All fields of the output, in its order. */
-    std::vector<Field>
+    std::vector<OutputField>
     fields(const unsigned int n_layers)
     {
-      using S                 = const PointState &;
-      std::vector<Field> list = {
+      using S                       = const PointState &;
+      std::vector<OutputField> list = {
         vector("displacement", [](S s) { return s.displacement; }),
         vector("normal", [](S s) { return s.normal; }),
         vector("e1", [](S s) { return s.e[0]; }),

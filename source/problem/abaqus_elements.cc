@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/text.h>
 #include <nacre/problem/abaqus_deck.h>
 
 #include <array>
@@ -9,12 +10,6 @@ namespace Nacre::Abaqus
 {
   namespace
   {
-    bool
-    begins_with(const std::string &text, const std::string &begin)
-    {
-      return text.compare(0, begin.size(), begin) == 0;
-    }
-
     struct Family
     {
       /** What the names of its types begin with. */
@@ -89,7 +84,7 @@ namespace Nacre::Abaqus
     {
       using Shape = ElementShape;
       for (const char *const solid : {"C3D", "DC3D", "CC3D", "SC"})
-        if (begins_with(type, solid))
+        if (Text::begins_with(type, solid))
           return {Shape::solid, 0, type};
       if (type == "STRI65")
         return {Shape::triangle, 6, type};
@@ -108,7 +103,7 @@ namespace Nacre::Abaqus
                                                             "US",
                                                             "S"}};
       for (const std::string &family : families)
-        if (begins_with(type, family) && type.size() > family.size())
+        if (Text::begins_with(type, family) && type.size() > family.size())
           switch (type[family.size()])
             {
               case '3':
@@ -129,17 +124,17 @@ namespace Nacre::Abaqus
   } // namespace
 
 
-  ElementType
+  DeckElement
   element_type(const std::string &name)
   {
     for (const Family &family : line_families())
-      if (begins_with(name, family.begin))
+      if (Text::begins_with(name, family.begin))
         {
           // Cubic beams, B23 and B33, have two nodes.
           bool has_middle = name == "T2D3" || name == "T3D3";
           for (const char *const begin :
                {"B22", "B32", "PIPE22", "PIPE32", "ELBOW32", "SAX2", "MAX2"})
-            has_middle = has_middle || begins_with(name, begin);
+            has_middle = has_middle || Text::begins_with(name, begin);
           return {ElementUse::line,
                   {ElementShape::line, has_middle ? 3u : 2u, name},
                   family.plural,
@@ -151,19 +146,19 @@ namespace Nacre::Abaqus
               "network elements",
               false};
     for (const Family &family : families_left_out())
-      if (begins_with(name, family.begin))
+      if (Text::begins_with(name, family.begin))
         return {ElementUse::left_out,
                 {ElementShape::other, 0, name},
                 family.plural,
                 false};
-    ElementType type;
+    DeckElement type;
     type.kind = surface_kind(name);
     for (const char *const plane : {"CPS", "CPE", "CAX", "CGAX", "DC"})
-      type.is_plane = type.is_plane || begins_with(name, plane);
+      type.is_plane = type.is_plane || Text::begins_with(name, plane);
     for (const auto &[begin, plural] :
          {Family{"R3D", "rigid elements"},
           Family{"SFM3D", "surface elements without stiffness"}})
-      if (begins_with(name, begin))
+      if (Text::begins_with(name, begin))
         {
           type.use    = ElementUse::spare_cell;
           type.plural = plural;

@@ -9,7 +9,7 @@ namespace Nacre::Abaqus
   {
     /** "3 elements of the type B31 (beams)" */
     std::string
-    describe(const std::pair<ElementType, std::size_t> &count)
+    describe(const std::pair<DeckElement, std::size_t> &count)
     {
       const auto &[type, n] = count;
       return std::to_string(n) + (n == 1 ? " element" : " elements") +
@@ -47,7 +47,7 @@ namespace Nacre::Abaqus
 
 
   void
-  DeckNotes::add(const ElementType &type, Counts &counts)
+  DeckNotes::add(const DeckElement &type, Counts &counts)
   {
     ++counts.emplace(type.kind.name, std::make_pair(type, 0))
         .first->second.second;
@@ -55,14 +55,14 @@ namespace Nacre::Abaqus
 
 
   void
-  DeckNotes::leave_out_element(const ElementType &type)
+  DeckNotes::leave_out_element(const DeckElement &type)
   {
     add(type, left_out_);
   }
 
 
   void
-  DeckNotes::add_line(const ElementType &type)
+  DeckNotes::add_line(const DeckElement &type)
   {
     add(type, lines_);
   }

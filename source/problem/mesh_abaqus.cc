@@ -111,7 +111,7 @@ namespace Nacre
       bool    has_elements_ = false;
 
       /** Of the keyword *ELEMENT. */
-      ElementType              type_;
+      DeckElement              type_;
       std::vector<std::string> element_;
       /** Of *NSET and *ELSET, of *SURFACE; or nullptr. */
       SetEntry *set_     = nullptr;
@@ -130,7 +130,7 @@ namespace Nacre
       {
         Part                  *part;
         long long              number;
-        ElementType            type;
+        DeckElement            type;
         std::vector<long long> nodes;
       };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/text.h>
 #include <nacre/problem/coarse_cell.h>
 #include <nacre/problem/mesh_file.h>
 #include <nacre/problem/mesh_reader.h>
@@ -55,12 +56,6 @@ namespace Nacre
 
   namespace
   {
-    bool
-    begins_with(const std::string &text, const std::string &begin)
-    {
-      return text.compare(0, begin.size(), begin) == 0;
-    }
-
     /** UCD files begin with comments, then five counts. */
     bool
     looks_like_ucd(const std::string &content)
@@ -114,11 +109,11 @@ namespace Nacre
                 ExcMessage("The mesh file '" + file.path + "' is empty."));
     refuse_other_formats(file);
     MeshFile mesh;
-    if (begins_with(first, "$"))
+    if (Text::begins_with(first, "$"))
       mesh = read_gmsh_mesh(text);
-    else if (begins_with(first, "# vtk"))
+    else if (Text::begins_with(first, "# vtk"))
       mesh = read_vtk_mesh(text);
-    else if (begins_with(first, "*"))
+    else if (Text::begins_with(first, "*"))
       mesh = read_abaqus_mesh(text, open);
     else if (looks_like_ucd(file.content))
       mesh = read_ucd_mesh(text);

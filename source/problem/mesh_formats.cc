@@ -13,12 +13,6 @@ namespace Nacre
 {
   namespace
   {
-    bool
-    begins_with(const std::string &text, const std::string &begin)
-    {
-      return text.compare(0, begin.size(), begin) == 0;
-    }
-
     struct Format
     {
       std::string name;
@@ -61,7 +55,7 @@ namespace Nacre
          {"a STEP file, a geometry without a mesh",
           "gmsh FILE -2 -format msh2 -o mesh.msh"}}};
       for (const auto &[begin, format] : formats)
-        if (begins_with(content, begin))
+        if (Text::begins_with(content, begin))
           return &format;
       return nullptr;
     }
@@ -81,9 +75,9 @@ namespace Nacre
       while (std::getline(in, line))
         {
           line = Text::trim(line);
-          if (line.empty() || line[0] == '#' || begins_with(line, "//"))
+          if (line.empty() || line[0] == '#' || Text::begins_with(line, "//"))
             continue;
-          if (begins_with(line, "$NOD"))
+          if (Text::begins_with(line, "$NOD"))
             return &gmsh_1;
           // A comment of Nastran and LS-DYNA.
           if (line[0] == '$')
@@ -127,7 +121,7 @@ namespace Nacre
   refuse_other_formats(const InputFile &file)
   {
     // Its title may be anything.
-    if (begins_with(file.content, "# vtk"))
+    if (Text::begins_with(file.content, "# vtk"))
       return;
     const Format *format = by_first_characters(file.content);
     if (format == nullptr)

@@ -13,14 +13,6 @@ namespace Nacre
 {
   namespace
   {
-    std::string
-    to_text(const double number)
-    {
-      std::ostringstream text;
-      text << number;
-      return text.str();
-    }
-
     /** The two numbers of "a, b". */
     std::array<double, 2>
     number_pair(const std::string &text,
@@ -51,18 +43,18 @@ namespace Nacre
       AssertThrow(std::abs(value(0.)) < 1e-12 &&
                     std::abs(value(1.) - 1.) < 1e-12,
                   ExcMessage(where + ": '" + text + "' runs from " +
-                             to_text(value(0.)) + " at s = 0 to " +
-                             to_text(value(1.)) +
+                             Text::number(value(0.)) + " at s = 0 to " +
+                             Text::number(value(1.)) +
                              " at s = 1; a grading g(s) must run from 0 to "
                              "1."));
       const unsigned int n_samples = 100;
       for (unsigned int i = 0; i < n_samples; ++i)
         AssertThrow(value((i + 1.) / n_samples) > value(double(i) / n_samples),
-                    ExcMessage(where + ": '" + text +
-                               "' doesn't grow between s = " +
-                               to_text(double(i) / n_samples) +
-                               " and s = " + to_text((i + 1.) / n_samples) +
-                               "; a grading must grow everywhere, e.g. s^2."));
+                    ExcMessage(
+                      where + ": '" + text + "' doesn't grow between s = " +
+                      Text::number(double(i) / n_samples) +
+                      " and s = " + Text::number((i + 1.) / n_samples) +
+                      "; a grading must grow everywhere, e.g. s^2."));
 
       std::vector<double> result(n + 1, 0.);
       for (unsigned int i = 1; i < n; ++i)
@@ -151,7 +143,8 @@ namespace Nacre
   {
     const double result = number(parameter);
     AssertThrow(result > 0.,
-                ExcMessage(where(parameter) + ": found " + to_text(result) +
+                ExcMessage(where(parameter) + ": found " +
+                           Text::number(result) +
                            "; it must be greater than zero."));
     return result;
   }
@@ -164,7 +157,8 @@ namespace Nacre
       number_pair(text(parameter), where(parameter), constants_);
     for (const double value : result)
       AssertThrow(value > 0.,
-                  ExcMessage(where(parameter) + ": found " + to_text(value) +
+                  ExcMessage(where(parameter) + ": found " +
+                             Text::number(value) +
                              "; both numbers must be greater than zero."));
     return result;
   }
@@ -177,7 +171,8 @@ namespace Nacre
       number_pair(text(parameter), where(parameter), constants_);
     AssertThrow(result[0] < result[1],
                 ExcMessage(where(parameter) + ": the range from " +
-                           to_text(result[0]) + " to " + to_text(result[1]) +
+                           Text::number(result[0]) + " to " +
+                           Text::number(result[1]) +
                            " is empty or reversed; its begin must be less "
                            "than its end."));
     return result;
@@ -190,7 +185,8 @@ namespace Nacre
     const Range result = range(parameter);
     AssertThrow(result[1] - result[0] <= 360. + 1e-9,
                 ExcMessage(where(parameter) + ": the range from " +
-                           to_text(result[0]) + " to " + to_text(result[1]) +
+                           Text::number(result[0]) + " to " +
+                           Text::number(result[1]) +
                            " degrees overlaps itself; it may be at most 360 "
                            "degrees long."));
     return result;
@@ -224,11 +220,11 @@ namespace Nacre
                       where,
                       constants_);
     AssertThrow(number == std::round(number) && number >= 1. && number <= 1000.,
-                ExcMessage(where + ": found " + to_text(number) +
+                ExcMessage(where + ": found " + Text::number(number) +
                            "; numbers of cells are whole and between 1 and "
                            "1000 (refine for more)."));
     AssertThrow(!closed || number >= 3.,
-                ExcMessage(where + ": found " + to_text(number) +
+                ExcMessage(where + ": found " + Text::number(number) +
                            " cells along " + (direction == 0 ? 'u' : 'v') +
                            "; the surface '" + surface_ +
                            "' is closed in that direction and needs at least "

@@ -20,16 +20,6 @@ namespace Nacre
     using TrilinosMatrix = TrilinosWrappers::SparseMatrix;
     using TrilinosVector = TrilinosWrappers::MPI::Vector;
 
-    /** Ways to factors, from the quickest to the most robust one. */
-    enum Method
-    {
-      cholesky,
-      ldlt,
-      pivoted_ldlt,
-      none
-    };
-
-
     bool
     is_finite(const TrilinosVector &vector)
     {
@@ -96,6 +86,15 @@ namespace Nacre
 
   struct DirectSolver::Implementation
   {
+    /** Ways to factors, from the quickest to the most robust one. */
+    enum Method
+    {
+      cholesky,
+      ldlt,
+      pivoted_ldlt,
+      none
+    };
+
     explicit Implementation(const MPI_Comm communicator)
       : communicator(communicator)
       , n_ranks(Utilities::MPI::n_mpi_processes(communicator))
@@ -262,7 +261,7 @@ namespace Nacre
   DirectSolver::factor_memory(const TrilinosWrappers::SparseMatrix &matrix)
   {
     implementation_->take_pattern(matrix);
-    if (implementation_->method == none)
+    if (implementation_->method == Implementation::none)
       implementation_->analyse(matrix, implementation_->first_method);
     return 1e-9 * implementation_->factors->memory();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// Residual and tangent of large rotations cost at most 2.5 times (co-rotational)
+// Residual and tangent of large rotations cost at most 2.5 (co-rotational)
 // and twice (finite) as much as the linear assembly of the same mesh.
 
 #include "../tests_common.h"

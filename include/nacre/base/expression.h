@@ -32,9 +32,10 @@ namespace Nacre
 
   /**
    * A function of a point and of the time: a number, or a muParser expression
-   * of a parameter file with named constants (and pi). Malformed text and unknown names throw an ExcMessage, values that aren't
-   * finite an ExcUndefinedValue: it names the parameter, the expression, the
-   * point and the time.
+   * of a parameter file with named constants (and pi). Malformed text and
+   * unknown names throw an ExcMessage, values that aren't finite an
+   * ExcUndefinedValue: it names the parameter, the expression, the point and
+   * the time.
    */
   class Expression
   {

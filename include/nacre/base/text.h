@@ -18,6 +18,13 @@ namespace Nacre::Text
   std::string
   lower_case(std::string text);
 
+  /** 6 significant digits. */
+  std::string
+  number(const double value);
+
+  bool
+  begins_with(const std::string &text, const std::string &begin);
+
   /**
    * Where @p what stands outside of parentheses and of "double quotes" for the
    * first time from @p begin on, itself outside of them; or npos.

@@ -4,7 +4,7 @@
 #ifndef nacre_forms_corotational_cell_h
 #define nacre_forms_corotational_cell_h
 
-#include <nacre/discretization/shell_values.h>
+#include <nacre/forms/node_vectors.h>
 #include <nacre/mechanics/corotational_strain.h>
 #include <nacre/mechanics/step_differences.h>
 
@@ -12,24 +12,6 @@
 
 namespace Nacre
 {
-  /** A vector for each node of a cell. */
-  template <typename Number>
-  using NodeVectors = std::vector<Tensor<1, spacedim, Number>>;
-
-  /** u,1 and u,2 at the point @p q of @p shapes. */
-  template <typename Number>
-  std::array<Tensor<1, spacedim, Number>, 2>
-  displacement_gradient(const ShapeTable          &shapes,
-                        const unsigned int         q,
-                        const NodeVectors<Number> &u)
-  {
-    std::array<Tensor<1, spacedim, Number>, 2> du;
-    for (unsigned int a = 0; a < u.size(); ++a)
-      for (unsigned int alpha = 0; alpha < 2; ++alpha)
-        du[alpha] += shapes.gradient(q, a)[alpha] * u[a];
-    return du;
-  }
-
   /** The frame after the displacement @p u of the nodes. */
   template <typename Number>
   SurfaceFrame<Number>

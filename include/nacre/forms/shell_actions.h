@@ -25,7 +25,7 @@ namespace Nacre
   {
     /** Of the loads. */
     Instant loads;
-    /** Of this rank's edges, at the same time or, in a time step, at another. */
+    /** Of this rank's edges, at the same time or in a step at another. */
     PrescribedRotations rotations;
   };
 } // namespace Nacre

@@ -32,6 +32,12 @@ namespace Nacre
   {
     using Vector3 = Tensor<1, 3>;
 
+    inline Vector3
+    mean(const Vector3 &start, const Vector3 &end)
+    {
+      return 0.5 * (start + end);
+    }
+
     /** The vectors y_i with y_i . x_k = delta_ik. */
     inline std::array<Vector3, 3>
     dual_basis(const Vector3 &x_0, const Vector3 &x_1, const Vector3 &x_2)

@@ -5,7 +5,7 @@
 #define nacre_postprocess_strain_values_h
 
 #include <nacre/discretization/shell_values.h>
-#include <nacre/forms/kinematics_options.h>
+#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>

@@ -62,7 +62,7 @@ namespace Nacre::Abaqus
     left_out
   };
 
-  struct ElementType
+  struct DeckElement
   {
     ElementUse  use = ElementUse::cell;
     ElementKind kind;
@@ -73,7 +73,7 @@ namespace Nacre::Abaqus
   };
 
   /** The type of elements by its name in capitals, as "S4R". */
-  ElementType
+  DeckElement
   element_type(const std::string &name);
 
   /** A position x becomes rotation*x + shift. */

@@ -23,11 +23,11 @@ namespace Nacre::Abaqus
     see_keyword(const Keyword &keyword);
 
     void
-    leave_out_element(const ElementType &type);
+    leave_out_element(const DeckElement &type);
 
     /** Its stiffness is left out. */
     void
-    add_line(const ElementType &type);
+    add_line(const DeckElement &type);
 
     void
     leave_out_surface(const std::string &name);
@@ -44,10 +44,10 @@ namespace Nacre::Abaqus
 
   private:
     /** How many elements there are of each type, by its name. */
-    using Counts = std::map<std::string, std::pair<ElementType, std::size_t>>;
+    using Counts = std::map<std::string, std::pair<DeckElement, std::size_t>>;
 
     static void
-    add(const ElementType &type, Counts &counts);
+    add(const DeckElement &type, Counts &counts);
 
     Counts                left_out_, lines_;
     std::set<std::string> constraints_, surfaces_;
