@@ -88,7 +88,8 @@ namespace Nacre
       "For co-rotational kinematics: consistent, the derivative of "
       "the internal forces, of which the symmetric solver takes the "
       "symmetric part; frozen, with the rotations held, which "
-      "needs many more iterations and may not converge.",
+      "needs many more iterations and may not converge. Finite kinematics has "
+      "the consistent one only.",
       prm,
       Patterns::Selection("frozen|consistent"));
     add_parameter("Assembly",
