@@ -19,7 +19,7 @@ namespace Nacre
   {
     log.warning("Discretization/Kinematics: linear, which holds for small "
                 "displacements and rotations only, all along the path; "
-                "'corotational' follows large ones.");
+                "'finite' and 'corotational' follow large ones.");
   }
 
   void
@@ -38,8 +38,9 @@ namespace Nacre
     text << std::setprecision(3) << "Discretization/Kinematics: a displacement"
          << " of " << largest << " is larger than the shell, " << size
          << "; linear kinematics holds for small displacements only. Are the "
-            "units of loads and section the same? 'corotational', with an "
-            "'Analysis/Type' other than linear, follows large rotations.";
+            "units of loads and section the same? 'finite' and 'corotational', "
+            "with an 'Analysis/Type' other than linear, follow large "
+            "rotations.";
     log.warning(text.str());
   }
 

@@ -56,13 +56,16 @@ namespace Nacre
                   "energy with its exact gradient and symmetric derivative.");
     add_parameter("Tangent",
                   kinematics_.tangent,
-                  "For co-rotational kinematics: symmetric, the symmetric part "
+                  "Of co-rotational kinematics: symmetric, the symmetric part "
                   "of the derivative of the internal forces, which converges "
                   "as fast, since the rest is small; frozen, the derivative "
                   "with the rotations held, which needs many more iterations "
                   "and may not converge; consistent, the derivative itself, "
                   "is refused: it is unsymmetric, and the solvers are for "
-                  "symmetric matrices.");
+                  "symmetric matrices. Of finite kinematics: consistent, the "
+                  "derivative; symmetric, the same but at edges that are far "
+                  "from their prescribed rotation, which Newton's method then "
+                  "reaches from further away.");
     add_parameter("Assembly",
                   assembly_,
                   "fast: tables and blocks of nodes; reference: a textbook's "

@@ -139,6 +139,17 @@ def flag(nacre):
     check("warnings", run.output.count("nacre: warning"), 0, 0)
 
 
+def flag_finite(nacre):
+    """The same cloth with exact finite rotations."""
+    settings = {"Mid-surface/Subdivisions": "6, 6", "Analysis/End time": "0.6",
+                "Discretization/Kinematics": "finite",
+                "Quantities/Quantities": BALANCE}
+    run = Run(nacre, HERE / "flag.prm", settings).good()
+    check("energy gained or lost / largest",
+          run.largest("gain") / run.largest("W"), 0, 1e-8)
+    check("work of the weight", run.largest("W"), 0.5, 1.5)
+
+
 def flag_midpoint(nacre):
     """The midpoint rule gains energy: warned of once, then the run ends."""
     settings = {"Mid-surface/Subdivisions": "6, 6",
