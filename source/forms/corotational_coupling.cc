@@ -176,6 +176,19 @@ namespace Nacre
   }
 
   void
+  CorotationalKinematics::add_membrane_to_mean_row(const ShellEdgeValues &edge)
+  {
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        const auto  &row    = membrane_moment_row_[s];
+        const double factor = edge_point_.side(s).mean_factor;
+        for (unsigned int a = 0; a < row.size() / spacedim; ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            mean_row_[edge.dof(s, a, c)] += factor * row[spacedim * a + c];
+      }
+  }
+
+  void
   CorotationalKinematics::add_edge_membrane_tangent(const ShellEdgeValues &edge,
                                                     const unsigned int     side,
                                                     const unsigned int     q,

@@ -92,6 +92,8 @@ namespace Nacre
                                               LocalTerms            &terms)
   {
     fill_edge_derivatives(edge, q);
+    if (section_.is_coupled())
+      add_membrane_to_mean_row(edge);
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
         fill_edge_rows(s, q);
@@ -343,9 +345,6 @@ namespace Nacre
                   side.jump_factor * side.hinge.rotation[b] * side.normal[c];
                 mean_row_[j] +=
                   side.mean_factor * side.hinge.moment[b] * side.normal[c];
-                if (section_.is_coupled())
-                  mean_row_[j] += side.mean_factor *
-                                  membrane_moment_row_[s][spacedim * b + c];
                 if (is_consistent())
                   {
                     // omega = spin t0[c] d + e columns[c]

@@ -376,8 +376,7 @@ namespace Nacre
                 mean[i] += 0.5 * sigma * side_plus.m_nn[i_plus];
               }
           }
-        // (N.12): eta D [[theta]] [[theta]] - {m_nn} [[theta]]
-        //         - [[theta]] {m_nn}
+        // (N.12): eta D [[theta]][[theta]] - {m_nn}[[theta]] - [[theta]]{m_nn}
         const double D = 0.5 * (side_minus.D + side_plus.D);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)

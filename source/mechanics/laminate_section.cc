@@ -248,33 +248,17 @@ namespace Nacre
     return layers;
   }
 
-  LaminateSection::Layup
-  LaminateSection::make_layup(const LayupTexts  &texts,
-                              const std::string &where,
-                              const Constants   &constants) const
+  double
+  LaminateSection::fill_thicknesses(std::vector<Laminate::Layer>     &layers,
+                                    const LayupTexts                 &texts,
+                                    const std::array<std::string, 2> &names,
+                                    const Constants &constants) const
   {
-    const bool is_region = !texts.stack.empty() && where != parameters;
-    const auto name = [&](const char *const parameter, const char *const key) {
-      return where + (is_region ? key : parameter);
-    };
-    Layup             layup;
-    const std::string stack = name("Stack", "stack");
-    AssertThrow(!texts.stack.empty(),
-                ExcMessage(stack + " is empty; write the plies' angles from "
-                                   "bottom to top, as in '[0/45/-45/90]s'."));
-    auto         layers  = make_layers(texts, stack);
-    double       sum     = 0.;
-    unsigned int n_plain = 0;
+    const auto &[ply, whole] = names;
+    const bool   has_whole   = !texts.thickness.empty();
+    unsigned int n_plain     = 0;
     for (const auto &layer : layers)
       n_plain += layer.thickness == 0. ? 1 : 0;
-    const std::string ply   = name("Ply thickness", "ply");
-    const std::string whole = name("Thickness", "h");
-    layup.where             = whole;
-    const bool has_whole    = !texts.thickness.empty();
-    AssertThrow(!has_whole || texts.ply_thickness.empty(),
-                ExcMessage(ply + ": '" + texts.ply_thickness + "' and " +
-                           whole + ": '" + texts.thickness +
-                           "' are both given; leave one of them empty."));
     double ply_thickness = 1.;
     if (!texts.ply_thickness.empty())
       ply_thickness =
@@ -293,12 +277,41 @@ namespace Nacre
                       ply + " and " + whole +
                         " are empty; one of them, or 'ply' of the materials, "
                         "must say how thick the plies are."));
+    double sum = 0.;
     for (auto &layer : layers)
       {
         if (layer.thickness == 0.)
           layer.thickness = ply_thickness;
         sum += layer.thickness;
       }
+    return sum;
+  }
+
+  LaminateSection::Layup
+  LaminateSection::make_layup(const LayupTexts  &texts,
+                              const std::string &where,
+                              const Constants   &constants) const
+  {
+    const bool is_region = where != parameters;
+    const auto name = [&](const char *const parameter, const char *const key) {
+      return where + (is_region ? key : parameter);
+    };
+    Layup             layup;
+    const std::string stack = name("Stack", "stack");
+    AssertThrow(!texts.stack.empty(),
+                ExcMessage(stack + " is empty; write the plies' angles from "
+                                   "bottom to top, as in '[0/45/-45/90]s'."));
+    auto              layers = make_layers(texts, stack);
+    const std::string ply    = name("Ply thickness", "ply");
+    const std::string whole  = name("Thickness", "h");
+    layup.where              = whole;
+    const bool has_whole     = !texts.thickness.empty();
+    AssertThrow(!has_whole || texts.ply_thickness.empty(),
+                ExcMessage(ply + ": '" + texts.ply_thickness + "' and " +
+                           whole + ": '" + texts.thickness +
+                           "' are both given; leave one of them empty."));
+    const double sum =
+      fill_thicknesses(layers, texts, {{ply, whole}}, constants);
     layup.laminate = Laminate(layers);
     std::ostringstream total;
     total.precision(17);

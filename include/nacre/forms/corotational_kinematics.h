@@ -223,6 +223,10 @@ namespace Nacre
                             const double           moment_force,
                             LocalTerms            &terms) const;
 
+    /** Add the derivatives of its part of m_nn to mean_row_. */
+    void
+    add_membrane_to_mean_row(const ShellEdgeValues &edge);
+
     /** The tangent of the point of edge_point_, but for how the row turns. */
     void
     add_edge_membrane_tangent(const ShellEdgeValues &edge,

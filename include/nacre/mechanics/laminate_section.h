@@ -10,6 +10,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -124,6 +125,17 @@ namespace Nacre
 
     std::vector<Laminate::Layer>
     make_layers(const LayupTexts &texts, const std::string &where) const;
+
+    /**
+     * Give all layers a thickness and return the sum (length, or the number of
+     * plies if only the whole is known). @p names are those of the parameters
+     * of a ply's and of the whole thickness, for messages.
+     */
+    double
+    fill_thicknesses(std::vector<Laminate::Layer>     &layers,
+                     const LayupTexts                 &texts,
+                     const std::array<std::string, 2> &names,
+                     const Constants                  &constants) const;
 
     void
     read_regions(const Constants &constants);
