@@ -202,17 +202,55 @@ namespace Nacre
   } // namespace
 
 
+  namespace
+  {
+    /** Of a disk. */
+    enum class DiskPart
+    {
+      whole,
+      half,
+      quarter
+    };
+
+    const Selection<DiskPart> &
+    selection(DiskPart)
+    {
+      static const Selection<DiskPart> table = {{DiskPart::whole, "whole"},
+                                                {DiskPart::half, "half"},
+                                                {DiskPart::quarter, "quarter"}};
+      return table;
+    }
+
+    /** Of a sphere. */
+    enum class SpherePart
+    {
+      whole,
+      hemisphere,
+      octant
+    };
+
+    const Selection<SpherePart> &
+    selection(SpherePart)
+    {
+      static const Selection<SpherePart> table = {
+        {SpherePart::whole, "whole"},
+        {SpherePart::hemisphere, "hemisphere"},
+        {SpherePart::octant, "octant"}};
+      return table;
+    }
+  } // namespace
+
   SurfaceDescription
   make_disk(const SurfaceInput &input)
   {
-    const double      radius = input.positive("Radius");
-    const std::string part = input.choice("Part", {"whole", "half", "quarter"});
-    const unsigned int n   = input.n_patch_cells();
+    const double       radius = input.positive("Radius");
+    const auto         part   = input.choice<DiskPart>("Part");
+    const unsigned int n      = input.n_patch_cells();
 
     // Lower ends of the chart, and cells along x and y.
-    const double       x0  = part == "whole" ? -1. : 0.;
-    const double       y0  = part == "quarter" ? 0. : -1.;
-    const unsigned int n_x = part == "half" ? (n + 1) / 2 : n;
+    const double       x0  = part == DiskPart::whole ? -1. : 0.;
+    const double       y0  = part == DiskPart::quarter ? 0. : -1.;
+    const unsigned int n_x = part == DiskPart::half ? (n + 1) / 2 : n;
     const unsigned int n_y = n;
     const auto         p   = [](const double x, const double y) {
       return Point<3>(x, y, 0.);
@@ -318,15 +356,14 @@ namespace Nacre
   {
     const double       radius = input.positive("Radius");
     const unsigned int n      = input.n_patch_cells();
-    const std::string  part =
-      input.choice("Part", {"whole", "hemisphere", "octant"});
+    const auto         part   = input.choice<SpherePart>("Part");
 
-    if (part == "hemisphere")
+    if (part == SpherePart::hemisphere)
       return make_whole_hemisphere(
         radius,
         n,
         {{"equator", {"z=0"}, coordinate_is_zero(2)}});
-    if (part == "octant")
+    if (part == SpherePart::octant)
       return make_octant(radius,
                          n,
                          {{"x=0", {}, coordinate_is_zero(0)},

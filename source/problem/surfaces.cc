@@ -50,6 +50,42 @@ namespace Nacre
          "Units: length"}};
     }
 
+    /** The axis of a cylinder. */
+    enum class Axis
+    {
+      x,
+      y,
+      z
+    };
+
+    const Selection<Axis> &
+    selection(Axis)
+    {
+      static const Selection<Axis> table = {{Axis::x, "x"},
+                                            {Axis::y, "y"},
+                                            {Axis::z, "z"}};
+      return table;
+    }
+
+    /** Directions in which a surface of an expression is closed. */
+    enum class Closed
+    {
+      none,
+      u,
+      v,
+      u_and_v
+    };
+
+    const Selection<Closed> &
+    selection(Closed)
+    {
+      static const Selection<Closed> table = {{Closed::none, "none"},
+                                              {Closed::u, "u"},
+                                              {Closed::v, "v"},
+                                              {Closed::u_and_v, "u and v"}};
+      return table;
+    }
+
     /**
      * u: angle (degrees), v: axial coordinate; about the axis
      *   z: (R cos u, R sin u, v)   y: (R sin u, v, R cos u)
@@ -60,23 +96,23 @@ namespace Nacre
     {
       const double              radius = input.positive("Radius");
       const SurfaceInput::Range angles = input.angle_range("Angle range");
-      const std::string         axis   = input.choice("Axis", {"x", "y", "z"});
+      const auto                axis   = input.choice<Axis>("Axis");
       const bool                closed = is_full_circle(angles);
 
       ChartRectangle rectangle;
       rectangle.u      = input.mesh_lines(0, angles, closed);
       rectangle.v      = input.mesh_lines(1, input.range("Axial range"));
       rectangle.closed = {{closed, false}};
-      rectangle.flip   = (axis == "x");
+      rectangle.flip   = (axis == Axis::x);
       return make_rectangle(rectangle,
                             make_chart_map([radius, axis](const Point<3> &c) {
                               const double cosine =
                                 radius * std::cos(c[0] * degree);
                               const double sine =
                                 radius * std::sin(c[0] * degree);
-                              return axis == "z" ?
+                              return axis == Axis::z ?
                                        Point<3>(cosine, sine, c[1]) :
-                                     axis == "y" ?
+                                     axis == Axis::y ?
                                        Point<3>(sine, c[1], cosine) :
                                        Point<3>(c[1], sine, cosine);
                             }));
@@ -284,11 +320,10 @@ namespace Nacre
       for (unsigned int c = 0; c < 3; ++c)
         components[c] = Expression(parts[c], where, input.constants(), "u,v");
 
-      const std::string closed =
-        input.choice("Closed", {"none", "u", "v", "u and v"});
+      const auto     closed = input.choice<Closed>("Closed");
       ChartRectangle rectangle;
-      rectangle.closed = {{closed == "u" || closed == "u and v",
-                           closed == "v" || closed == "u and v"}};
+      rectangle.closed = {{closed == Closed::u || closed == Closed::u_and_v,
+                           closed == Closed::v || closed == Closed::u_and_v}};
       rectangle.u =
         input.mesh_lines(0, input.range("Range u"), rectangle.closed[0]);
       rectangle.v =

@@ -31,6 +31,29 @@ namespace Nacre
       options.name          = recorder.names().own_name;
       return options;
     }
+
+    /** A shell, its system of equations and the steps that solve it. */
+    struct SteppedShell
+    {
+      /** Everything that is wrong without a step is found here. */
+      SteppedShell(const MPI_Comm      communicator,
+                   const ShellProblem &problem,
+                   Log                &log)
+        : shell(communicator, problem, nullptr, 1, log)
+        , system(shell.discretization(),
+                 shell.shell_operator(),
+                 problem.model,
+                 shell.solver())
+        , path(problem.path, system, problem.model.section)
+      {
+        if (has_linear_kinematics(problem))
+          warn_of_linear_path(log);
+      }
+
+      DiscreteShell shell;
+      ShellSystem   system;
+      PathAnalysis  path;
+    };
   } // namespace
 
   /** A state of the path with its forces, as the quantities see it. */
@@ -116,9 +139,8 @@ namespace Nacre
   void
   PathRun::check(const Recorder &recorder, const bool restart)
   {
-    const DiscreteShell shell(communicator_, problem_, nullptr, 1, log_);
-    if (has_linear_kinematics(problem_))
-      warn_of_linear_path(log_);
+    const SteppedShell   stepped(communicator_, problem_, log_);
+    const DiscreteShell &shell = stepped.shell;
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
     const std::string base = own_options(recorder).file("");
@@ -133,16 +155,12 @@ namespace Nacre
   void
   PathRun::run(Recorder &recorder, const bool restart)
   {
-    CpuTimer      timer(communicator_);
-    DiscreteShell shell(communicator_, problem_, nullptr, 1, log_);
-    if (has_linear_kinematics(problem_))
-      warn_of_linear_path(log_);
-    ShellSystem  system(shell.discretization(),
-                       shell.shell_operator(),
-                       problem_.model,
-                       shell.solver());
-    PathAnalysis path(problem_.path, system, problem_.model.section);
-    SolveRecord  record;
+    CpuTimer       timer(communicator_);
+    SteppedShell   stepped(communicator_, problem_, log_);
+    DiscreteShell &shell  = stepped.shell;
+    ShellSystem   &system = stepped.system;
+    PathAnalysis  &path   = stepped.path;
+    SolveRecord    record;
     record.setup = timer.lap();
     record.eta   = shell.shell_operator().penalty().eta();
     recorder.check_quantities(shell.discretization());

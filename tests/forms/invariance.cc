@@ -350,26 +350,26 @@ test_mirror()
 void
 test_clamped_coercivity()
 {
-  Panel panel(true);
-  ParameterAcceptor::prm.parse_input_from_string(
-    "subsection Boundary conditions\n"
-    " set Edges = u=0, u=1, v=0, v=1: rotation = 0\nend\n");
-  ParameterAcceptor::parse_all_parameters();
-  panel.conditions->prepare(*panel.midsurface, {});
-  const Discretization discretization(*panel.midsurface,
+  const Panel        panel(true);
+  const auto        &midsurface = panel.parameters.model.midsurface;
+  const auto        &section    = panel.parameters.section;
+  BoundaryConditions conditions;
+  for (const auto *const edge : {"u=0", "u=1", "v=0", "v=1"})
+    conditions.prescribe_rotation(midsurface.edge_ids(edge, "test"));
+  const Discretization discretization(midsurface,
                                       MPI_COMM_WORLD,
                                       Element{ElementType::lagrange, 2},
                                       0,
                                       1);
   const auto           smallest = [&](const std::optional<double> &eta) {
     return smallest_eigenvalue(discretization,
-                               *panel.section,
-                               *panel.conditions,
-                               *panel.loads,
+                               section,
+                               conditions,
+                               Loads(),
                                eta);
   };
   const double bound = EdgePenalty(discretization,
-                                   *panel.section,
+                                   section,
                                    discretization.element().full_quadrature(),
                                    {})
                          .bound();

@@ -134,7 +134,7 @@ test_membrane()
                   1e-12});
       const auto test_distorted = [&](const MembraneStrain membrane_strain,
                                       const double         tolerance) {
-        const auto name = name_of(membrane_strain);
+        const auto name = Nacre::name_of(membrane_strain);
         test_patch(
           {"membrane, distorted cells, edge force" + name_of + ", " + name,
            distorted,

@@ -73,6 +73,10 @@ case("analysis_type", ["Type", "quasistatic", "static"],
 case("analysis_corotational_linear",
      ["Discretization/Kinematics", "corotational", "Analysis/Type"],
      {"Discretization/Kinematics": "corotational"})
+case("tangent_consistent",
+     ["Discretization/Tangent", "'consistent'", "unsymmetric", "'symmetric'"],
+     {"Discretization/Tangent": "consistent",
+      "Discretization/Kinematics": "corotational", "Analysis/Type": "static"})
 case("analysis_time_step", ["Analysis/Time step", "-1", "not positive"],
      {"Analysis/Type": "static", "Analysis/Time step": "-1"})
 case("analysis_minimum_step", ["Analysis/Minimum time step", "larger"],

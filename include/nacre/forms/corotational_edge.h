@@ -34,10 +34,10 @@ namespace Nacre
    *
    * Prescribed rotation theta_bar: R is the rotation by theta_bar about the
    * edge that moves the conormal towards the normal, followed by the turn Q of
-   * the edge under its prescribed displacements (EdgeTurns, 1 without any) and
-   * by the smallest rotation that takes Q d0 to d. On a clamped edge d = d0
-   * and R is the prescribed rotation; the edge in a symmetry plane turns within
-   * the plane, about the plane's normal, and so does R.
+   * the edge under its prescribed displacements (follow_edge_turns(), 1 without
+   * any) and by the smallest rotation that takes Q d0 to d. On a clamped edge
+   * d = d0 and R is the prescribed rotation; the edge in a symmetry plane turns
+   * within the plane, about the plane's normal, and so does R.
    *
    * With R t0 the turned normal of a side, lambda = dx/dnu and
    * mu = -H_m(nu, nu)^ab (x,ab - Gamma0^g_ab x,g) of the deformed positions,

@@ -20,7 +20,7 @@ namespace Nacre
     {}
 
     double angle;
-    /** How the prescribed displacements have turned the edge: EdgeTurns. */
+    /** How the prescribed displacements have turned the edge. */
     Tensor<2, spacedim> turn;
   };
 

@@ -5,6 +5,7 @@
 #define nacre_problem_surfaces_h
 
 #include <nacre/base/input_file.h>
+#include <nacre/base/selection.h>
 #include <nacre/problem/parametric_surface.h>
 
 #include <array>
@@ -105,6 +106,14 @@ namespace Nacre
     std::string
     choice(const std::string              &parameter,
            const std::vector<std::string> &allowed) const;
+
+    /** The same of the names of an enumeration that has a Selection. */
+    template <typename E>
+    E
+    choice(const std::string &parameter) const
+    {
+      return *find_value<E>(choice(parameter, names_of<E>()));
+    }
 
     /**
      * Coarse cells along u (0) or v (1); @p closed asks for three at least.
