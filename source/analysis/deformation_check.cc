@@ -22,8 +22,6 @@ namespace Nacre
     using Dofs           = std::vector<types::global_dof_index>;
 
     constexpr double degrees = 180. / numbers::PI;
-    /** Cosine of 60 degrees: a hairpin turns by 90 degrees at least once. */
-    constexpr double sharpest_bend = 0.5;
 
     /** Points of the reference cell, and which of them are next neighbours. */
     struct Lattice
@@ -132,6 +130,7 @@ namespace Nacre
                const Lattice         &lattice,
                const TrilinosVector  *before,
                const TrilinosVector  &after,
+               const double           allowed_bend,
                const Dofs            &dofs)
     {
       const auto                       regular = regular_points(values);
@@ -163,7 +162,7 @@ namespace Nacre
       for (const auto &[p, q] : lattice.neighbors)
         {
           const double cosine = 0.5 * (scalar_product(turns[p], turns[q]) - 1.);
-          if (!regular[p] || !regular[q] || cosine > sharpest_bend)
+          if (!regular[p] || !regular[q] || cosine > std::cos(allowed_bend))
             continue;
           std::ostringstream text;
           text << cell_at(values, q) << "folds onto itself: it turns by "
@@ -232,7 +231,8 @@ namespace Nacre
     std::string
     check_all(const Discretization &discretization,
               const TrilinosVector *before,
-              const TrilinosVector &after)
+              const TrilinosVector &after,
+              const double          allowed_bend)
     {
       std::string     found;
       const Lattice   lattice(discretization.element());
@@ -247,7 +247,8 @@ namespace Nacre
           {
             values.reinit_frames(cell);
             cell->get_dof_indices(dofs);
-            found = check_cell(values, lattice, before, after, dofs);
+            found =
+              check_cell(values, lattice, before, after, allowed_bend, dofs);
             for (const auto f : cell->face_indices())
               if (before != nullptr && found.empty() &&
                   edge.reinit_to_neighbor(cell, f))
@@ -264,16 +265,18 @@ namespace Nacre
   std::string
   find_impossible_deformation(const Discretization &discretization,
                               const TrilinosVector &before,
-                              const TrilinosVector &after)
+                              const TrilinosVector &after,
+                              const double          allowed_bend)
   {
-    return check_all(discretization, &before, after);
+    return check_all(discretization, &before, after, allowed_bend);
   }
 
   std::string
   find_impossible_state(const Discretization &discretization,
-                        const TrilinosVector &u)
+                        const TrilinosVector &u,
+                        const double          allowed_bend)
   {
-    return check_all(discretization, nullptr, u);
+    return check_all(discretization, nullptr, u, allowed_bend);
   }
 
   std::string

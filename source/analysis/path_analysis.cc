@@ -194,12 +194,15 @@ namespace Nacre
     const Vector u              = system_.with_ghosts(attempt.motion.u);
     auto        &reason         = attempt.result.reason;
     const auto  &discretization = system_.discretization();
+    const double allowed_bend =
+      parameters_.is_dynamic() ? largest_bend_in_motions : largest_bend;
     reason =
       before != nullptr ?
         find_impossible_deformation(discretization,
                                     system_.with_ghosts(before->motion.u),
-                                    u) :
-        find_impossible_state(discretization, u);
+                                    u,
+                                    allowed_bend) :
+        find_impossible_state(discretization, u, allowed_bend);
     const double allowed_gap =
       parameters_.is_dynamic() ? 0.75 * numbers::PI : 0.5 * numbers::PI;
     if (reason.empty())

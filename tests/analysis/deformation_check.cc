@@ -58,9 +58,9 @@ struct Shell
 
   /** Of the deformation by itself. */
   std::string
-  found(const Map &map) const
+  found(const Map &map, const double allowed_bend = largest_bend) const
   {
-    return find_impossible_state(*discretization, deform(map));
+    return find_impossible_state(*discretization, deform(map), allowed_bend);
   }
 
   std::unique_ptr<Discretization> discretization;
@@ -189,12 +189,32 @@ test_inside_of_cells()
       expect(name + "hairpin inside of a cell",
              shell.found(hairpin),
              "folds onto itself");
+      expect(name + "hairpin inside of a moving cell",
+             shell.found(hairpin, largest_bend_in_motions),
+             "folds onto itself");
       expect(name + "arc of 120 degrees", shell.found(arc(120.)), "");
       expect(name + "corner turned over in a step",
              shell.found(rest, corner),
              "turned over");
       expect(name + "corner turned over", shell.found(corner), "cell");
     }
+}
+
+void
+test_bends_of_motions()
+{
+  // From the middle on by 70 degrees within a quarter of the cell
+  const Map bend = [](const Point<3> &x) {
+    const double s = x[0];
+    return Point<3>(2. * std::tan(7. / 18. * numbers::PI) * s * (1. - s),
+                    x[1],
+                    s);
+  };
+  const Shell shell(one_cell(), lagrange(2));
+  expect("bend by 70 degrees", shell.found(bend), "70");
+  expect("bend by 70 degrees in a motion",
+         shell.found(bend, largest_bend_in_motions),
+         "");
 }
 
 void
@@ -242,6 +262,7 @@ main(int argc, char **argv)
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_two_cells();
   test_inside_of_cells();
+  test_bends_of_motions();
   test_hanging_edges();
   return n_failures == 0 ? 0 : 1;
 }
