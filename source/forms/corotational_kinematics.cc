@@ -269,9 +269,9 @@ namespace Nacre
       {
         const auto &[k, direction] = samples[s];
         force_vectors_[s]          = membrane_.sample_vectors(direction, k);
-        strain_vectors_[s]         = is_consistent() ?
-                                       membrane_.sample_derivatives(direction, k) :
-                                       force_vectors_[s];
+        strain_vectors_[s]         = force_vectors_[s];
+        if (is_consistent())
+          strain_vectors_[s] = membrane_.sample_derivatives(direction, k);
       }
   }
 

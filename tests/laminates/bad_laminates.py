@@ -64,7 +64,8 @@ case("laminate_isotropic_regions",
      {"Section/Regions": "web: h = 1"})
 
 laminate("no_materials", [L + "Materials", "empty", "E1"], Materials="")
-laminate("material_without_values", [L + "Materials", "'ud'", "'G12'", "needed"],
+laminate("material_without_values",
+         [L + "Materials", "'ud'", "'G12'", "needed"],
          Materials="ud: E1 = 25, E2 = 1, nu12 = 0.25")
 laminate("material_key", [L + "Materials", "G13", "G12", "Known"],
          Materials="ud: E1 = 25, E2 = 1, nu12 = 0.25, G13 = 0.5")
@@ -91,7 +92,8 @@ laminate("stack_without_material", [L + "Stack", "without a material", "0_a"],
          Stack="[0/90_b]", Materials=MANY)
 laminate("no_thickness", ["Ply thickness", "Thickness", "empty"],
          Ply_thickness="")
-laminate("two_thicknesses", ["Ply thickness", "0.01", "Thickness", "0.1", "both"],
+laminate("two_thicknesses",
+         ["Ply thickness", "0.01", "Thickness", "0.1", "both"],
          Thickness="0.1")
 laminate("ply_thickness", [L + "Ply thickness", "-0.1", "positive"],
          Ply_thickness="-0.1")

@@ -245,9 +245,9 @@ namespace Nacre
     {
       const auto  &polar  = polar_[k];
       const auto  &phi    = deformed_[k];
-      const auto   turned = combine(direction,
-                                  {{cross_product_3d(phi.t0, polar.q_cov[0]),
-                                      cross_product_3d(phi.t0, polar.q_cov[1])}});
+      const Vector q_1    = cross_product_3d(phi.t0, polar.q_cov[0]);
+      const Vector q_2    = cross_product_3d(phi.t0, polar.q_cov[1]);
+      const auto   turned = combine(direction, {{q_1, q_2}});
       const Number spin_strain =
         turned[0] * phi.a_cov[0] + turned[1] * phi.a_cov[1];
       auto vectors = combine(direction, polar.q_cov);

@@ -29,22 +29,21 @@ namespace Nacre
    * | displacement | u | length |
    * | normal | t0, of the undeformed surface | - |
    * | e1, e2 | surface frame: e1 = a_1/|a_1|, e2 = t0 x e1 | - |
-   * | membrane_forces | N = n^ab a_a (x) a_b, n of the section law | force/length
-   * |
-   * | moments | M = m^ab a_a (x) a_b, m of the section law | force |
+   * | membrane_forces | N = n^ab a_a (x) a_b | force/length |
+   * | moments | M = m^ab a_a (x) a_b | force |
    * | principal_membrane_force_1, _2 | eigenvalues in the tangent plane, the
    * larger first | force/length |
    * | principal_moment_1, _2 | the same of M | force |
    * | n11, n22, n12, m11, m22, m12 | e_i . N e_j, e_i . M e_j | |
    * | von_mises_top, _middle, _bottom | of the plane stress of the section law,
-   * n/h + 12 z m/h^3 if it is homogeneous, at z = h/2, 0, -h/2 along t0 from its
-   * middle | force/length^2 |
-   * | energy_density | w of the section law, (n : eps + m : rho)/2 | force/length |
+   * n/h + 12 z m/h^3 if it is homogeneous, at z = h/2, 0, -h/2 along t0 from
+   * its middle | force/length^2 |
+   * | energy_density | w of the section law | force/length |
    * | rank | MPI rank that owns the cell | - |
    * | tsai_wu, maximum_stress | of laminates: the largest index of all plies, 1
    * at failure; 0 without strengths | - |
-   * | ply_K_bottom_stress, ply_K_top_stress | of laminates: (s1, s2, t12) of the
-   * ply K, counted from 1 at the bottom, in its axes | force/length^2 |
+   * | ply_K_bottom_stress, ply_K_top_stress | of laminates: (s1, s2, t12) of
+   * the ply K, counted from 1 at the bottom, in its axes | force/length^2 |
    * | ply_K_bottom_strain, ply_K_top_strain | (e1, e2, 2 e12) there | - |
    * | error_indicator | eta_K of the cell, if given | |
    *
