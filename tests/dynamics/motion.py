@@ -128,6 +128,20 @@ def pendulum(nacre):
           0.998 * 5.42494240, 1.0005 * 5.42494240)
 
 
+def swings(nacre):
+    """Fourteen swings of the rigid plate gain and lose no energy."""
+    run = Run(nacre, HERE / "pendulum.prm",
+              {"Analysis/End time": "13.6", "Analysis/Time step": "0.02",
+               "Quantities/Quantities":
+               "x = displacement x at (L, L/2, 0); " + BALANCE}).good()
+    hanging = [1 + x for x in run.column("x")]
+    passes = sum(a * b < 0 for a, b in zip(hanging, hanging[1:]))
+    check("swings", passes, 14, 14)
+    check("energy gained or lost / largest",
+          run.largest("gain") / run.largest("T"), 0, 2e-8)
+    check("warnings", run.output.count("nacre: warning"), 0, 0)
+
+
 def flag(nacre):
     """A cloth that falls and crumples: no energy is gained by default."""
     settings = {"Mid-surface/Subdivisions": "6, 6", "Analysis/End time": "0.9",
