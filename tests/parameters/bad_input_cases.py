@@ -253,17 +253,10 @@ case("corotational_averaged_normal",
      {"Discretization/Edge form": "averaged normal",
       "Discretization/Kinematics": "corotational", "Analysis/Type": "static"})
 
-case("finite_averaged_normal",
-     ["Discretization/Edge form", "'averaged normal'", "finite"],
-     {"Discretization/Edge form": "averaged normal",
-      "Discretization/Kinematics": "finite", "Analysis/Type": "static"})
 case("finite_frozen_tangent",
      ["Discretization/Tangent", "'frozen'", "choose 'consistent'"],
      {"Discretization/Tangent": "frozen",
       "Discretization/Kinematics": "finite", "Analysis/Type": "static"})
-case("finite_linear",
-     ["Discretization/Kinematics", "'finite' is nonlinear", "Analysis/Type"],
-     {"Discretization/Kinematics": "finite"})
 
 # --- Constants and expressions ---------------------------------------------
 case("constant_without_value", ["Constants", "'b'", "has no value"],
