@@ -211,6 +211,24 @@ test_definite()
       check_above("seventh eigenvalue, " + label(element),
                   values[6] / largest,
                   1e-9);
+      // At the bound itself nothing is negative yet.
+      const ShellOperator shell_operator(*discretization,
+                                         p.section,
+                                         p.conditions,
+                                         p.loads,
+                                         MembraneStrain::tied,
+                                         {});
+      const auto          at_bound =
+        eigenvalues(matrix_of(*discretization,
+                              p.section,
+                              p.conditions,
+                              p.loads,
+                              MembraneStrain::tied,
+                              shell_operator.penalty().bound()),
+                    none);
+      check_above("lowest eigenvalue at the bound, " + label(element),
+                  at_bound[0] / largest,
+                  -1e-13);
     }
 }
 

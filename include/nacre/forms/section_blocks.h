@@ -25,7 +25,9 @@ namespace Nacre
     {
       const auto stiffness = section.stiffness(frame, point);
       A                    = factor * stiffness.membrane;
+      B                    = factor * stiffness.coupling;
       D                    = factor * stiffness.bending;
+      is_coupled           = section.is_coupled();
     }
 
     /** n from E and kappa. */
