@@ -150,8 +150,7 @@ test_free_shells()
         {
           KinematicsOptions options = corotational(strain);
           options.model             = model;
-          check_free(case_name(element, strain) +
-                       kinematics_model_names()[static_cast<int>(model)],
+          check_free(case_name(element, strain) + name_of(model),
                      *discretization,
                      ShellOperator(*discretization,
                                    parameters.section,

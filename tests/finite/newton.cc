@@ -120,8 +120,8 @@ test_roll(const KinematicsModel model, const double thickness)
       changes = newton(shell, *shell.make_operator(options), u);
       most    = std::max<unsigned int>(most, changes.size());
     }
-  const auto name = kinematics_model_names()[static_cast<int>(model)] +
-                    ", thickness " + std::to_string(thickness) + ": ";
+  const auto name =
+    name_of(model) + ", thickness " + std::to_string(thickness) + ": ";
   report(name + "last step", changes);
   check_below(name + "iterations", most, 12.5);
   if (model == KinematicsModel::finite)

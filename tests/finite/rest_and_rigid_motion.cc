@@ -39,7 +39,7 @@ test_rigid_motion(const Parameters &parameters)
                                              finite(strain),
                                              10.);
           check_below("rigid motion, p = " + std::to_string(degree) + ", " +
-                        membrane_strain_names()[static_cast<int>(strain)],
+                        name_of(strain),
                       relative_force(*discretization, shell_operator, motion),
                       1e-12);
         }

@@ -66,8 +66,7 @@ test_assembly(const std::string        &name,
     for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
       K_reference(i, entry->column()) = entry->value();
   const std::string full_name =
-    name + ", " + label(element) + ", " +
-    membrane_strain_names()[static_cast<unsigned int>(strain)];
+    name + ", " + label(element) + ", " + name_of(strain);
   check_below(full_name + ": matrices",
               relative_difference(K, K_reference),
               1e-12);
