@@ -95,13 +95,15 @@ namespace Tests
   };
 
   /** The model of the text of a parameter file; one object at a time. */
-  struct TextModel : NoParameters
+  template <typename Section>
+  struct TextModelOf : NoParameters
   {
-    explicit TextModel(const std::string &text, const Constants &constants = {})
+    explicit TextModelOf(const std::string &text,
+                         const Constants   &constants = {})
       : model(read(text, constants))
     {}
 
-    LinearElasticSection section;
+    Section section;
 
   private:
     ShellModel
@@ -124,6 +126,8 @@ namespace Tests
   public:
     ShellModel model;
   };
+
+  using TextModel = TextModelOf<LinearElasticSection>;
 
   inline std::string
   section_text(const double E, const double nu, const double h)

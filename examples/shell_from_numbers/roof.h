@@ -24,7 +24,7 @@ namespace Roof
   constexpr double angle  = 40. * numbers::PI / 180.; // from crown to edge
 
   /** Isotropic section without weight: E, nu, h. */
-  class Section : public SectionLaw
+  class Section : public LinearSectionLaw
   {
   public:
     Section(const double E, const double nu, const double h)

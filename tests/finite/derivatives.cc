@@ -289,8 +289,8 @@ test_shell(const Element       &element,
                     element);
   ComplexShell complex_shell(*shell.discretization,
                              *shell.section,
-                             shell.conditions.get(),
-                             shell.loads.get(),
+                             shell.conditions,
+                             shell.loads,
                              strain);
   compare_derivatives(case_name(element, strain) +
                         (!moments.empty()  ? "moments" :

@@ -157,7 +157,10 @@ test_step(const std::string &name, const Mesh &mesh, const Element &element)
   zero = 0.;
   const StepStart start{u_start, {}};
   const Inertia   inertia{mass, zero, 0., &start};
-  shell.shell_operator.residual(mean, force, &inertia);
+  shell.shell_operator.residual(mean,
+                                shell.shell_operator.actions(Instant()),
+                                force,
+                                &inertia);
   const double U_start = shell.shell_operator.energies(u_start).total();
   const double U_end   = shell.shell_operator.energies(u_end).total();
   check_below(full_name + "work",

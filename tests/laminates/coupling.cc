@@ -239,54 +239,42 @@ test_definite()
 void
 test_patch(const Element &element)
 {
-  ParameterAcceptor::clear();
-  LaminateSection    section;
-  Midsurface         midsurface;
-  BoundaryConditions conditions;
-  Loads              loads;
-  const std::string  u   = "x = 0.01*x + 0.03*y, y = 0.02*y - 0.01*x, "
-                           "z = 0.01*x^2 + 0.02*x*y - 0.03*y^2";
-  const std::string  w_x = "(0.02*x + 0.02*y)", w_y = "(0.02*x - 0.06*y)";
-  ParameterAcceptor::declare_all_parameters();
-  ParameterAcceptor::prm.parse_input_from_string(
-    laminate_text("[0/90/30]", "0.4") +
-    "subsection Mid-surface\n set Surface = expression\n"
-    " set Subdivisions = 3, 3\n subsection expression\n"
-    "  set Position = u + 0.3*v, v, 0\n end\nend\n"
-    "subsection Boundary conditions\n set Edges = v=0: " +
-    u + ", rotation = -" + w_y + "; v=1: " + u + ", rotation = " + w_y +
-    "; u=0: " + u + ", rotation = (-" + w_x + " + 0.3*" + w_y +
-    ")/sqrt(1.09); u=1: " + u +
-    "\nend\nsubsection Loads\n set Edge moments = u=1: M\nend\n");
-  ParameterAcceptor::parse_all_parameters();
-  section.prepare({});
-  midsurface.prepare({});
-
+  const std::string stack = laminate_text("[0/90/30]", "0.4");
   // nu = (1, -0.3)/sqrt(1.09) on u = 1
   const auto frame =
     make_surface_frame(Vector3({1., 0., 0.}), Vector3({0., 1., 0.}), {});
-  const Voigt<> m = section
+  const Voigt<> m = LaminateParameters(stack)
+                      .section
                       .response(Voigt<>({0.01, 0.02, 0.02}),
                                 Voigt<>({-0.02, 0.06, -0.04}),
                                 frame,
                                 Point<3>())
                       .moment;
-  const Constants constants = {{"M", (m[0] + 0.09 * m[1] - 0.6 * m[2]) / 1.09}};
-  conditions.prepare(midsurface, constants);
-  loads.prepare(midsurface, constants);
+  const std::string u   = "x = 0.01*x + 0.03*y, y = 0.02*y - 0.01*x, "
+                          "z = 0.01*x^2 + 0.02*x*y - 0.03*y^2";
+  const std::string w_x = "(0.02*x + 0.02*y)", w_y = "(0.02*x - 0.06*y)";
+  TextModelOf<LaminateSection> text(
+    stack +
+      "subsection Mid-surface\n set Surface = expression\n"
+      " set Subdivisions = 3, 3\n subsection expression\n"
+      "  set Position = u + 0.3*v, v, 0\n end\nend\n"
+      "subsection Boundary conditions\n set Edges = v=0: " +
+      u + ", rotation = -" + w_y + "; v=1: " + u + ", rotation = " + w_y +
+      "; u=0: " + u + ", rotation = (-" + w_x + " + 0.3*" + w_y +
+      ")/sqrt(1.09); u=1: " + u +
+      "\nend\nsubsection Loads\n set Edge moments = u=1: M\nend\n",
+    {{"M", (m[0] + 0.09 * m[1] - 0.6 * m[2]) / 1.09}});
+  ShellModel &model                = text.model;
+  model.element                    = element;
+  model.kinematics.membrane_strain = default_membrane_strain(element.type);
 
-  const Discretization           discretization(midsurface,
+  const Discretization           discretization(model.midsurface,
                                       MPI_COMM_WORLD,
                                       element,
                                       0,
                                       0);
-  const DisplacementConditions   displacements(discretization, conditions);
-  const ShellOperator            shell_operator(discretization,
-                                     section,
-                                     conditions,
-                                     loads,
-                                     default_membrane_strain(element.type),
-                                     {});
+  const DisplacementConditions   displacements(discretization, model.supports);
+  const ShellOperator            shell_operator(discretization, model);
   const auto                    &constraints = displacements.constraints();
   TrilinosWrappers::SparseMatrix matrix;
   TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
