@@ -254,7 +254,7 @@ case("corotational_averaged_normal",
       "Discretization/Kinematics": "corotational", "Analysis/Type": "static"})
 
 case("finite_frozen_tangent",
-     ["Discretization/Tangent", "'frozen'", "choose 'consistent'"],
+     ["Discretization/Tangent", "'frozen'", "choose 'symmetric'"],
      {"Discretization/Tangent": "frozen",
       "Discretization/Kinematics": "finite", "Analysis/Type": "static"})
 
