@@ -6,7 +6,7 @@
 
 // Reading and comparing the numbers of conformance/*.json.
 
-// Boost 1.74 notes its own placeholders otherwise.
+// Else Boost 1.74 prints a note on its own use of _1, _2 as global names.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include "../tests_common.h"
 
