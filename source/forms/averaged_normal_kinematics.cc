@@ -23,7 +23,7 @@ namespace Nacre
         text << "Discretization/Edge form: averaged normal: at ("
              << edge.point(q)
              << ") two cells are folded onto each other, the mean of their "
-                "normals is zero; use hinge.";
+                "normals is zero; use rotation jump.";
         AssertThrow(false, ExcMessage(text.str()));
       }
     // Nothing depends on the tangent's length, here 1; its direction makes

@@ -208,7 +208,7 @@ namespace Nacre
     edge_membrane_[side].add_point_force(edge.tying(side),
                                          q,
                                          edge_point_.moment_force(side) *
-                                           point.hinge.coupling);
+                                           point.linear.coupling);
   }
 
   void

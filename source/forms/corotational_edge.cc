@@ -67,7 +67,7 @@ namespace Nacre
                 fill_edge_membrane_rows(edge,
                                         s,
                                         q,
-                                        edge_point_.side(s).hinge.coupling);
+                                        edge_point_.side(s).linear.coupling);
                 add_edge_membrane_force(edge,
                                         s,
                                         edge_point_.moment_force(s),
@@ -228,7 +228,7 @@ namespace Nacre
         add_edge_residual(edge, s, terms);
         if (section_.is_coupled())
           {
-            fill_edge_membrane_rows(edge, s, q, start.side(s).hinge.coupling);
+            fill_edge_membrane_rows(edge, s, q, start.side(s).linear.coupling);
             add_edge_membrane_force(edge,
                                     s,
                                     0.5 * (start.moment_force(s) +
@@ -342,9 +342,9 @@ namespace Nacre
               {
                 const unsigned int j = edge.dof(s, b, c);
                 jump_row_[j] +=
-                  side.jump_factor * side.hinge.rotation[b] * side.normal[c];
+                  side.jump_factor * side.linear.rotation[b] * side.normal[c];
                 mean_row_[j] +=
-                  side.mean_factor * side.hinge.moment[b] * side.normal[c];
+                  side.mean_factor * side.linear.moment[b] * side.normal[c];
                 if (is_consistent())
                   {
                     // omega = spin t0[c] d + e columns[c]
@@ -366,10 +366,10 @@ namespace Nacre
     const auto        &side   = edge_point_.side(s);
     const auto        &fluxes = edge_point_.fluxes();
     const unsigned int n      = jump_row_.size();
-    for (unsigned int a = 0; a < side.hinge.rotation.size(); ++a)
+    for (unsigned int a = 0; a < side.linear.rotation.size(); ++a)
       {
-        edge_shape_rows_[s](2 * q, a)     = side.hinge.rotation[a];
-        edge_shape_rows_[s](2 * q + 1, a) = side.hinge.moment[a];
+        edge_shape_rows_[s](2 * q, a)     = side.linear.rotation[a];
+        edge_shape_rows_[s](2 * q + 1, a) = side.linear.moment[a];
       }
     const double f = edge_point_.rotation_force(s);
     const double g = edge_point_.moment_force(s);

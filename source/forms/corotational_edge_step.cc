@@ -27,8 +27,8 @@ namespace Nacre
     for (unsigned int s = 0; s < n_sides_; ++s)
       {
         // The forces are linear in [[theta]] and {m_nn}: means, too.
-        Side &side = sides_[s];
-        side.hinge = start.side(s).hinge;
+        Side &side  = sides_[s];
+        side.linear = start.side(s).linear;
         side.normal =
           StepDifferences::mean(start.side(s).normal, end.side(s).normal);
         side.rotation_force =
@@ -71,7 +71,7 @@ namespace Nacre
         frames[s] = StepDifferences::mean_frame(start.side(s).deformed,
                                                 end.side(s).deformed);
         T += sigma[s] * frames[s].t0;
-        const Vector3 &t0 = sides_[s].hinge.t0;
+        const Vector3 &t0 = sides_[s].linear.t0;
         force_b += (t0 * start.initial_binormal()) * sides_[s].normal_force;
         force_t += (t0 * start.initial_normal()) * sides_[s].normal_force;
       }
@@ -132,8 +132,8 @@ namespace Nacre
     for (unsigned int a = 0; a < force.size(); ++a)
       {
         const auto &dN = edge.shapes(side).gradient(q, a);
-        force[a] += (s.rotation_force * s.hinge.rotation[a] +
-                     s.moment_force * s.hinge.moment[a]) *
+        force[a] += (s.rotation_force * s.linear.rotation[a] +
+                     s.moment_force * s.linear.moment[a]) *
                       s.normal +
                     dN[0] * s.basis_forces[0] + dN[1] * s.basis_forces[1];
       }

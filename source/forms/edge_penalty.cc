@@ -4,7 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/forms/cell_stiffness.h>
 #include <nacre/forms/edge_penalty.h>
-#include <nacre/forms/hinge_form.h>
+#include <nacre/forms/rotation_jump.h>
 
 #include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -89,17 +89,16 @@ namespace Nacre
             edge_.reinit(cell, face);
             for (unsigned int q = 0; q < n_points; ++q)
               {
-                hinge_.reinit(edge_, 0, q, section_);
-                const double weight =
-                  std::sqrt(edge_.JxW(q) / hinge_.stiffness);
-                double *const row = &moments_(face * n_points + q, 0);
-                for (unsigned int a = 0; a < hinge_.moment.size(); ++a)
+                side_.reinit(edge_, 0, q, section_);
+                const double weight = std::sqrt(edge_.JxW(q) / side_.stiffness);
+                double *const row   = &moments_(face * n_points + q, 0);
+                for (unsigned int a = 0; a < side_.moment.size(); ++a)
                   for (unsigned int c = 0; c < spacedim; ++c)
                     {
                       double &entry = row[values_.dof(a, c)];
-                      entry         = weight * hinge_.moment[a] * hinge_.t0[c];
-                      if (!hinge_.membrane_moment.empty())
-                        entry += weight * hinge_.membrane_moment[a][c];
+                      entry         = weight * side_.moment[a] * side_.t0[c];
+                      if (!side_.membrane_moment.empty())
+                        entry += weight * side_.membrane_moment[a][c];
                     }
               }
           }
@@ -206,7 +205,7 @@ namespace Nacre
       ShellCellValues       values_;
       ShellEdgeValues       edge_;
       Perimeter             perimeter_;
-      HingeSide             hinge_;
+      JumpSide              side_;
       const Discretization &discretization_;
       FullMatrix<double>    moments_;
       CellStiffness         stiffness_;

@@ -206,7 +206,7 @@ namespace Nacre
     double *const      trial  = &trial_rows_(n_rows * q, 0);
     double             m_b    = 0.;
     for (unsigned int v = 0; v < 3; ++v)
-      m_b += (v < 2 ? 1. : 2.) * m[v] * (frame.a_cov_derivatives[v] * t);
+      m_b += (v < 2 ? 1. : 2.) * m[v] * frame.b(v);
     for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
       {
         const auto &dN = values.shapes().gradient(q, a);

@@ -134,7 +134,8 @@ namespace Nacre
           !section.is_coupled(),
           ExcMessage(
             "Discretization/Edge form: averaged normal: it has no terms for "
-            "sections that couple membrane forces and bending; use hinge."));
+            "sections that couple membrane forces and bending; use rotation "
+            "jump."));
         return std::make_unique<AveragedNormalKinematics>(
           discretization,
           section,

@@ -162,10 +162,10 @@ namespace Nacre
 
   void
   LinearKinematics::fill_edge_rows(const unsigned int q,
-                                   const HingeFluxes &fluxes)
+                                   const EdgeFluxes  &fluxes)
   {
-    const auto        &jump   = hinge_.rotation_jump();
-    const auto        &moment = hinge_.mean_moment();
+    const auto        &jump   = jump_.rotation_jump();
+    const auto        &moment = jump_.mean_moment();
     const unsigned int n      = jump.size();
     std::copy(jump.begin(), jump.end(), &test_rows_(2 * q, 0));
     std::copy(moment.begin(), moment.end(), &test_rows_(2 * q + 1, 0));
@@ -184,13 +184,13 @@ namespace Nacre
   }
 
   void
-  LinearKinematics::add_edge_residual(const HingeFluxes    &fluxes,
+  LinearKinematics::add_edge_residual(const EdgeFluxes     &fluxes,
                                       const double          rotation,
                                       const Vector<double> &u,
                                       LocalTerms           &terms) const
   {
-    const auto &jump   = hinge_.rotation_jump();
-    const auto &moment = hinge_.mean_moment();
+    const auto &jump   = jump_.rotation_jump();
+    const auto &moment = jump_.mean_moment();
     // With a prescribed rotation, the jump is rotation - theta^-.
     double u_jump   = rotation;
     double u_moment = 0.;
@@ -239,8 +239,8 @@ namespace Nacre
       }
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        hinge_.reinit(edge, q, section_);
-        const auto weights = hinge_fluxes(edge, q, hinge_.stiffness(), penalty);
+        jump_.reinit(edge, q, section_);
+        const auto weights = edge_fluxes(edge, q, jump_.stiffness(), penalty);
         if (terms.wants_tangent)
           fill_edge_rows(q, weights);
         add_edge_residual(weights, rotation[q].angle, u, terms);
@@ -256,15 +256,15 @@ namespace Nacre
                                      const Vector<double> & /*u*/,
                                      LocalTerms &terms)
   {
-    HingeSide hinge;
+    JumpSide side;
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        hinge.reinit(edge, 0, q, section_);
+        side.reinit(edge, 0, q, section_);
         const double m = edge.JxW(q) * moment[q];
-        for (unsigned int a = 0; a < hinge.rotation.size(); ++a)
+        for (unsigned int a = 0; a < side.rotation.size(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[edge.dof(0, a, c)] +=
-              m * hinge.rotation[a] * hinge.t0[c];
+              m * side.rotation[a] * side.t0[c];
       }
   }
 } // namespace Nacre

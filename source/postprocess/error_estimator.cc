@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
-#include <nacre/forms/hinge_form.h>
+#include <nacre/forms/rotation_jump.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
 #include <nacre/postprocess/stress_polynomials.h>
@@ -334,7 +334,7 @@ namespace Nacre
         {
           for (unsigned int f = 0; f < fields_.size(); ++f)
             vectors_[f] = tractions[f][q];
-          fill_hinge(q);
+          fill_jumps(q);
           if (n_sides == 1)
             apply_boundary_data(id, q);
           add_edge_point(cells, q);
@@ -343,25 +343,25 @@ namespace Nacre
 
     /** Jumps of m_nn and theta, or their values on the boundary. */
     void
-    fill_hinge(const unsigned int q)
+    fill_jumps(const unsigned int q)
     {
       stiffness_ = 0.;
       std::fill(moments_.begin(), moments_.end(), 0.);
       std::fill(rotations_.begin(), rotations_.end(), 0.);
       for (unsigned int side = 0; side < edge_.n_sides(); ++side)
         {
-          hinge_.reinit(edge_, side, q, estimator_.section_);
-          stiffness_ += hinge_.stiffness / edge_.n_sides();
+          side_.reinit(edge_, side, q, estimator_.section_);
+          stiffness_ += side_.stiffness / edge_.n_sides();
           const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
           for (unsigned int f = 0; f < fields_.size(); ++f)
-            for (unsigned int a = 0; a < hinge_.rotation.size(); ++a)
+            for (unsigned int a = 0; a < side_.rotation.size(); ++a)
               {
                 Vector3 u;
                 for (unsigned int c = 0; c < spacedim; ++c)
                   u[c] = (*fields_[f].displacement)(
                     edge_.dof_indices()[edge_.dof(side, a, c)]);
-                rotations_[f] += sign * hinge_.rotation[a] * (hinge_.t0 * u);
-                moments_[f] += sign * hinge_.moment_of(a, u);
+                rotations_[f] += sign * side_.rotation[a] * (side_.t0 * u);
+                moments_[f] += sign * side_.moment_of(a, u);
               }
         }
     }
@@ -452,7 +452,7 @@ namespace Nacre
     ShellEdgeValues                                    edge_;
     const Quadrature<1>                                edge_rule_;
     const FullMatrix<double>                           differentiation_;
-    HingeSide                                          hinge_;
+    JumpSide                                           side_;
     std::vector<std::pair<unsigned int, unsigned int>> pairs_;
     std::vector<ErrorIndicators>                       products_;
     /** @name At the current point, by field */

@@ -31,8 +31,7 @@ namespace Nacre
           eps[c][2]        = k[0] * v[1] + k[1] * v[0];
         }
       for (unsigned int v = 0; v < 3; ++v)
-        eps[2][v] =
-          -(v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0);
+        eps[2][v] = -(v == 2 ? 2. : 1.) * frame.b(v);
       Voigt<> rho;
       rho[0] = k[0] * k[0];
       rho[1] = k[1] * k[1];

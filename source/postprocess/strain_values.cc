@@ -92,8 +92,7 @@ namespace Nacre
               strain += weight * samples[k];
             membrane_[3 * q + v] = strain;
             bending_[3 * q + v] =
-              (v == 2 ? 2. : 1.) * (frame.a_cov_derivatives[v] * frame.t0 -
-                                    ddphi[v] * area / area.norm());
+              (v == 2 ? 2. : 1.) * (frame.b(v) - ddphi[v] * area / area.norm());
           }
       }
   }

@@ -18,9 +18,9 @@ namespace Nacre
   const Selection<EdgeForm> &
   selection(EdgeForm)
   {
-    static const Selection<EdgeForm> table = {{EdgeForm::hinge, "hinge"},
-                                              {EdgeForm::averaged_normal,
-                                               "averaged normal"}};
+    static const Selection<EdgeForm> table = {
+      {EdgeForm::rotation_jump, "rotation jump"},
+      {EdgeForm::averaged_normal, "averaged normal"}};
     return table;
   }
 

@@ -42,12 +42,13 @@ namespace Nacre
                   "8-node cells 2 x 2 points and for triangles 3 points for "
                   "the bending strain as well; default: reduced for 8-node "
                   "cells, tied for all others.");
-    add_parameter("Edge form",
-                  kinematics_.edge_form,
-                  "hinge: rotations and moments of an edge in each cell's own "
-                  "frame, independent of creases; averaged normal: in a frame "
-                  "with the mean of both cells' normals, the same where the "
-                  "surface is smooth, but dependent on the angle of a crease.");
+    add_parameter(
+      "Edge form",
+      kinematics_.edge_form,
+      "rotation jump: rotations and moments of an edge in each cell's own "
+      "frame, independent of creases; averaged normal: in a frame "
+      "with the mean of both cells' normals, the same where the "
+      "surface is smooth, but dependent on the angle of a crease.");
     add_parameter("Kinematics",
                   kinematics_.model,
                   "linear: small displacements; corotational: large rotations "
@@ -66,12 +67,13 @@ namespace Nacre
                   "derivative; symmetric, the same but at edges that are far "
                   "from their prescribed rotation, which Newton's method then "
                   "reaches from further away.");
-    add_parameter("Assembly",
-                  assembly_,
-                  "fast: tables and blocks of nodes; reference: a textbook's "
-                  "loop over FEValues and FEInterfaceValues, several times "
-                  "slower, for linear analyses in the hinge form. Both give "
-                  "the same numbers.");
+    add_parameter(
+      "Assembly",
+      assembly_,
+      "fast: tables and blocks of nodes; reference: a textbook's "
+      "loop over FEValues and FEInterfaceValues, several times "
+      "slower, for linear analyses in the rotation-jump form. Both give "
+      "the same numbers.");
   }
 
   Element
@@ -164,10 +166,11 @@ namespace Nacre
   {
     const KinematicsOptions &options = problem.model.kinematics;
     const bool linear_kinematics = (options.model == KinematicsModel::linear);
-    AssertThrow(linear_kinematics || options.edge_form == EdgeForm::hinge,
-                ExcMessage("Discretization/Edge form: co-rotational and finite "
-                           "kinematics have the hinge form only; found '" +
-                           name_of(options.edge_form) + "'."));
+    AssertThrow(
+      linear_kinematics || options.edge_form == EdgeForm::rotation_jump,
+      ExcMessage("Discretization/Edge form: co-rotational and finite "
+                 "kinematics have the rotation-jump form only; found '" +
+                 name_of(options.edge_form) + "'."));
     AssertThrow(options.tangent != TangentType::consistent ||
                   options.model != KinematicsModel::corotational,
                 ExcMessage("Discretization/Tangent: 'consistent', the "
@@ -182,9 +185,10 @@ namespace Nacre
                            "direct."));
     AssertThrow(problem.assembly == AssemblyMethod::fast ||
                   (problem.path.is_linear() &&
-                   options.edge_form == EdgeForm::hinge),
-                ExcMessage("Discretization/Assembly: 'reference' knows linear "
-                           "analyses in the hinge form only; choose 'fast'."));
+                   options.edge_form == EdgeForm::rotation_jump),
+                ExcMessage(
+                  "Discretization/Assembly: 'reference' knows linear "
+                  "analyses in the rotation-jump form only; choose 'fast'."));
     if (!problem.path.is_linear())
       return;
     AssertThrow(linear_kinematics,

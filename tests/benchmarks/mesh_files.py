@@ -142,7 +142,7 @@ def compare_edge_forms(runs, prm):
               "Quantities/Quantities=w = maximum displacement; U = energy"]
     forms = [runs.row(prm / "meshes" / "strip.prm", *common,
                       f"Discretization/Edge form={form}")
-             for form in ("hinge", "averaged normal")]
+             for form in ("rotation jump", "averaged normal")]
     found = difference(*forms)
     return check("edge forms between regions", found, found < 1e-9)
 

@@ -12,7 +12,10 @@ inline KinematicsOptions
 finite(const MembraneStrain membrane_strain,
        const TangentType    tangent = TangentType::consistent)
 {
-  return {membrane_strain, EdgeForm::hinge, KinematicsModel::finite, tangent};
+  return {membrane_strain,
+          EdgeForm::rotation_jump,
+          KinematicsModel::finite,
+          tangent};
 }
 
 #endif

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// The edge form of the averaged normal in whole meshes: the hinge form where
-// the surface has tangent planes, another form at a crease, there too without
-// energy of rigid motions and indifferent to the cells' order and orientation.
+// The edge form of the averaged normal in whole meshes: the rotation-jump form
+// where the surface has tangent planes, another form at a crease, there too
+// without energy of rigid motions and indifferent to the cells' order and
+// orientation.
 
 #include "../tests_common.h"
 #include <nacre/forms/averaged_normal_kinematics.h>
@@ -115,17 +116,17 @@ struct System
 
 template <typename ParametersType>
 void
-compare_with_hinge(const std::string    &name,
-                   const ParametersType &parameters,
-                   const Discretization &discretization)
+compare_with_rotation_jump(const std::string    &name,
+                           const ParametersType &parameters,
+                           const Discretization &discretization)
 {
   const System averaged(parameters, discretization, EdgeForm::averaged_normal);
-  const System hinge(parameters, discretization, EdgeForm::hinge);
-  check_below(name + ": the hinge form's matrix",
-              relative_difference(averaged.matrix, hinge.matrix),
+  const System jump(parameters, discretization, EdgeForm::rotation_jump);
+  check_below(name + ": the rotation-jump form's matrix",
+              relative_difference(averaged.matrix, jump.matrix),
               1e-12);
-  check_below(name + ": the hinge form's edge energy",
-              std::abs(averaged.energies.edge / hinge.energies.edge - 1.),
+  check_below(name + ": the rotation-jump form's edge energy",
+              std::abs(averaged.energies.edge / jump.energies.edge - 1.),
               1e-11);
 }
 
@@ -135,9 +136,9 @@ test_smooth(const std::string &name,
             const Mesh        &mesh,
             const unsigned int degree)
 {
-  compare_with_hinge(name + ", p = " + std::to_string(degree),
-                     parameters,
-                     *make_discretization(mesh, degree));
+  compare_with_rotation_jump(name + ", p = " + std::to_string(degree),
+                             parameters,
+                             *make_discretization(mesh, degree));
 }
 
 /** Sections that jump at the edges: means of both cells' stiffnesses. */
@@ -149,7 +150,7 @@ test_regions()
   for (const auto &cell :
        discretization->triangulation().active_cell_iterators())
     cell->set_material_id(cell->index() % 2);
-  compare_with_hinge("two regions", parameters, *discretization);
+  compare_with_rotation_jump("two regions", parameters, *discretization);
 }
 
 void
@@ -159,9 +160,9 @@ test_crease(const Parameters &parameters)
   mesh.refined                = {1};
   const auto   discretization = make_discretization(mesh, 2);
   const System averaged(parameters, *discretization, EdgeForm::averaged_normal);
-  const System hinge(parameters, *discretization, EdgeForm::hinge);
-  check_above("crease: not the hinge form's matrix",
-              relative_difference(averaged.matrix, hinge.matrix),
+  const System jump(parameters, *discretization, EdgeForm::rotation_jump);
+  check_above("crease: not the rotation-jump form's matrix",
+              relative_difference(averaged.matrix, jump.matrix),
               0.05);
   FullMatrix<double> transposed(averaged.matrix);
   transposed.copy_transposed(averaged.matrix);
@@ -287,7 +288,7 @@ test_folded_flat(const Parameters &parameters)
       message = error.what();
     }
   for (const std::string text :
-       {"Discretization/Edge form", "folded onto each other", "hinge"})
+       {"Discretization/Edge form", "folded onto each other", "rotation jump"})
     check_above("folded flat: the message has '" + text + "'",
                 message.find(text) != std::string::npos,
                 0.5);

@@ -511,7 +511,11 @@ test_edge(const Json &record, const Json &expected)
   if (record.get<double>("max_normal_angle_rad") < 1e-7)
     {
       test_edge_frames(name, mesh.edge);
-      test_edge_form(record, expected, mesh, EdgeForm::hinge, "hinge");
+      test_edge_form(record,
+                     expected,
+                     mesh,
+                     EdgeForm::rotation_jump,
+                     "rotation jump");
     }
   test_edge_form(record, expected, mesh, EdgeForm::averaged_normal, "report");
 

@@ -43,7 +43,9 @@ main(int argc, char *argv[])
           parameters.section,
           parameters.conditions,
           parameters.loads,
-          KinematicsOptions(MembraneStrain::tied, EdgeForm::hinge, model),
+          KinematicsOptions(MembraneStrain::tied,
+                            EdgeForm::rotation_jump,
+                            model),
           10.);
       TrilinosWrappers::SparseMatrix matrix;
       TrilinosVector                 force(discretization->locally_owned_dofs(),

@@ -377,10 +377,10 @@ test_edge_rotations(const std::string &name,
 }
 
 /**
- * The records' edge form is the report's, equal to the hinge form only where
- * both cells have the same tangent plane: elsewhere, all @p creased records
- * (one mesh, its cells numbered and oriented in different ways) must have one
- * force.
+ * The records' edge form is the report's, equal to the rotation-jump form
+ * only where both cells have the same tangent plane: elsewhere, all @p creased
+ * records (one mesh, its cells numbered and oriented in different ways) must
+ * have one force.
  */
 void
 test_edge(const Json &record, std::vector<double> &creased)

@@ -24,7 +24,7 @@ corotational(const MembraneStrain membrane_strain,
              const TangentType    tangent = TangentType::consistent)
 {
   return {membrane_strain,
-          EdgeForm::hinge,
+          EdgeForm::rotation_jump,
           KinematicsModel::corotational,
           tangent};
 }

@@ -448,7 +448,7 @@ test_boundary(const Json &record)
       const double t = 2. * quadrature.point(q)[0] - 1.;
       auto rows = boundary_rows(element, nodes, parameters.section, side, t);
       test_edge_at_rest(element, side, rows);
-      // Symmetry: the rotation about the edge only, the hinge form.
+      // Symmetry: the rotation about the edge only, the rotation-jump form.
       if (!clamped)
         for (unsigned int i = 0; i < nodes.size(); ++i)
           rows.jump(2, i) = rows.tested_jump(2, i) = 0.;

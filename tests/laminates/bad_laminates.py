@@ -125,5 +125,5 @@ case("ply_no_strengths", ["'f'", "strengths", "Xt"],
 case("ply_isotropic", ["'s'", "no plies", "Section/Type"],
      {"Section/Type": "isotropic",
       "Quantities/Quantities": "s = ply stress 1 of 1 top at (1, 0.5, 0)"})
-case("laminate_averaged_normal", ["Edge form", "averaged normal", "hinge"],
+case("laminate_averaged_normal", ["averaged normal", "rotation jump"],
      {L + "Stack": "[0/90]", "Discretization/Edge form": "averaged normal"})

@@ -14,7 +14,7 @@ using namespace Tests;
 KinematicsOptions
 options(const MembraneStrain strain, const KinematicsModel model)
 {
-  return {strain, EdgeForm::hinge, model, TangentType::consistent};
+  return {strain, EdgeForm::rotation_jump, model, TangentType::consistent};
 }
 
 /** A shell of six cells with a laminate that couples everything. */

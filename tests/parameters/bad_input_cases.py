@@ -249,7 +249,7 @@ case("unknown_edge_form",
      ["Edge form", "unknown value 'averaged normals'", "'averaged normal'?"],
      {"Discretization/Edge form": "averaged normals"})
 case("corotational_averaged_normal",
-     ["Discretization/Edge form", "'averaged normal'", "hinge"],
+     ["Discretization/Edge form", "'averaged normal'", "rotation jump"],
      {"Discretization/Edge form": "averaged normal",
       "Discretization/Kinematics": "corotational", "Analysis/Type": "static"})
 

@@ -65,13 +65,14 @@ namespace Nacre
    *            + {m~(v)} [[Delta t~(u)]]                           symmetry
    *            + [[Delta t~(v)]] {m~(u)} ds                        consistency
    *
-   * For continuous displacements it is the hinge form of LinearKinematics
-   * where the surface has a tangent plane; at a crease it depends on the
-   * angle, and the hinge form is to be preferred.
+   * For continuous displacements it is the rotation-jump form of
+   * LinearKinematics where the surface has a tangent plane; at a crease it
+   * depends on the angle, and the rotation-jump form is to be preferred.
    *
    * On the boundary the edge's frame is that of the cell, so that the rotation
-   * about the edge has the terms of the hinge form. The report has no boundary
-   * terms; the rotation along a clamped edge follows from its displacements.
+   * about the edge has the terms of the rotation-jump form. The report has no
+   * boundary terms; the rotation along a clamped edge follows from its
+   * displacements.
    */
   class AveragedNormalKinematics : public LinearKinematics
   {

@@ -5,8 +5,8 @@
 #define nacre_forms_corotational_edge_h
 
 #include <nacre/forms/corotational_cell.h>
-#include <nacre/forms/hinge_form.h>
 #include <nacre/forms/kinematics.h>
+#include <nacre/forms/rotation_jump.h>
 
 #include <complex>
 #include <utility>
@@ -24,7 +24,7 @@ namespace Nacre
                    const PrescribedRotation  &rotation);
 
   /**
-   * The hinge form in the frame that turns with the edge, at one point:
+   * the rotation-jump form in the frame that turns with the edge, at one point:
    * f = R K^e (R^T x - X0), (48) with the linear form's K^e.
    *
    * Interior edges: R = [d, b, t] [d0, b0, t_e]^T with d the unit tangent of
@@ -58,7 +58,7 @@ namespace Nacre
     struct Side
     {
       /** Rows of theta and m_nn, sigma included. */
-      HingeSide hinge;
+      JumpSide linear;
       /** phi,alpha and t0 = t of the side's cell. */
       SurfaceFrame<Number> deformed;
       /** R t0. */
@@ -113,13 +113,13 @@ namespace Nacre
           const Side &side = sides_[s];
           jump_ += side.jump_factor * (side.normal * side.lambda);
           mean_ += side.mean_factor *
-                   (side.normal * side.mu + side.hinge.curvature_moment);
+                   (side.normal * side.mu + side.linear.curvature_moment);
           if (section.is_coupled())
             mean_ +=
-              side.mean_factor *
-              (side.hinge.coupling * membrane[s].tied_strain(edge.tying(s), q));
+              side.mean_factor * (side.linear.coupling *
+                                  membrane[s].tied_strain(edge.tying(s), q));
         }
-      fluxes_ = hinge_fluxes(edge, q, stiffness_, penalty);
+      fluxes_ = edge_fluxes(edge, q, stiffness_, penalty);
     }
 
     unsigned int
@@ -134,7 +134,7 @@ namespace Nacre
       return sides_[s];
     }
 
-    const HingeFluxes &
+    const EdgeFluxes &
     fluxes() const
     {
       return fluxes_;
@@ -232,12 +232,12 @@ namespace Nacre
     void
     add_force(const unsigned int s, NodeVectors<Number> &force) const
     {
-      const auto  &hinge = sides_[s].hinge;
-      const Number f     = rotation_force(s);
-      const Number g     = moment_force(s);
+      const auto  &linear = sides_[s].linear;
+      const Number f      = rotation_force(s);
+      const Number g      = moment_force(s);
       for (unsigned int a = 0; a < force.size(); ++a)
         force[a] +=
-          (f * hinge.rotation[a] + g * hinge.moment[a]) * sides_[s].normal;
+          (f * linear.rotation[a] + g * linear.moment[a]) * sides_[s].normal;
     }
 
     /** R applied to @p v. */
@@ -256,7 +256,7 @@ namespace Nacre
                 const NodeVectors<Number> &u)
     {
       Side &side = sides_[s];
-      side.hinge.reinit(edge, s, q, section);
+      side.linear.reinit(edge, s, q, section);
       const auto &a_cov = edge.frame(s, q).a_cov;
       const auto  du    = displacement_gradient(edge.shapes(s), q, u);
       side.deformed =
@@ -264,13 +264,13 @@ namespace Nacre
       side.jump_factor = s == 0 ? -1. : 1.; // plus - minus
       side.mean_factor = n_sides_ == 2 ? 0.5 : 1.;
       side.lambda      = edge.sigma(s, q) * edge.conormal(s, q);
-      side.mu          = -side.hinge.curvature_moment * side.hinge.t0;
+      side.mu          = -side.linear.curvature_moment * side.linear.t0;
       for (unsigned int a = 0; a < u.size(); ++a)
         {
-          side.lambda += side.hinge.rotation[a] * u[a];
-          side.mu += side.hinge.moment[a] * u[a];
+          side.lambda += side.linear.rotation[a] * u[a];
+          side.mu += side.linear.moment[a] * u[a];
         }
-      stiffness_ += (n_sides_ == 2 ? 0.5 : 1.) * side.hinge.stiffness;
+      stiffness_ += (n_sides_ == 2 ? 0.5 : 1.) * side.linear.stiffness;
     }
 
     void
@@ -278,7 +278,7 @@ namespace Nacre
     {
       const double        sigma = edge.sigma(1, q);
       Tensor<1, spacedim> mean0 =
-        sides_[0].hinge.t0 + sigma * sides_[1].hinge.t0;
+        sides_[0].linear.t0 + sigma * sides_[1].linear.t0;
       AssertThrow(mean0.norm() > 1e-8,
                   ExcMessage("Discretization/Kinematics: corotational: two "
                              "cells of the undeformed surface are folded onto "
@@ -296,7 +296,7 @@ namespace Nacre
           for (unsigned int g = 0; g < 2; ++g)
             sides_[s].spin[g] = (s == 0 ? 1. : sigma) *
                                 (b_ * sides_[s].deformed.a_con[g]) / length;
-          sides_[s].normal = rotate(sides_[s].hinge.t0);
+          sides_[s].normal = rotate(sides_[s].linear.t0);
         }
       tangent_spin_ = Vector();
     }
@@ -326,7 +326,7 @@ namespace Nacre
 
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
-    HingeFluxes         fluxes_;
+    EdgeFluxes          fluxes_;
     double              stiffness_ = 0.;
     Number              jump_      = 0.;
     Number              mean_      = 0.;

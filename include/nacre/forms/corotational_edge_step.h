@@ -9,10 +9,10 @@
 namespace Nacre
 {
   /**
-   * Energy-momentum forces of the hinge form over a step, at one point of an
-   * edge: the differences of theta = n . lambda and m_nn = n . mu + const,
-   * n = R t0, as linear functions of the change of the positions
-   * (StepDifferences), with the means of both ends:
+   * Energy-momentum forces of the rotation-jump form over a step, at one point
+   * of an edge: the differences of theta = n . lambda and
+   * m_nn = n . mu + const, n = R t0, as linear functions of the change of the
+   * positions (StepDifferences), with the means of both ends:
    *
    *   Delta(theta) = Delta(n) . lambda_m + n_m . Delta(lambda).
    *
@@ -59,7 +59,7 @@ namespace Nacre
   private:
     struct Side
     {
-      HingeSide hinge;
+      JumpSide linear;
       /** n_m. */
       Vector normal;
       /** Work conjugates of theta and m_nn. */

@@ -109,7 +109,7 @@ namespace Nacre
       double stiffness = 0.;
       for (unsigned int s = 0; s < n_sides_; ++s)
         stiffness += reinit_side(edge, s, q, section, u[s]);
-      fluxes_ = hinge_fluxes(edge, q, stiffness, penalty);
+      fluxes_ = edge_fluxes(edge, q, stiffness, penalty);
 
       const Vector &t = sides_[0].normal;
       const Vector &d = sides_[0].tangent;
@@ -182,7 +182,7 @@ namespace Nacre
       mean_ = 0.5 * (start.mean_ + end.mean_);
     }
 
-    const HingeFluxes &
+    const EdgeFluxes &
     fluxes() const
     {
       return fluxes_;
@@ -478,7 +478,7 @@ namespace Nacre
 
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
-    HingeFluxes         fluxes_;
+    EdgeFluxes          fluxes_;
     Number              jump_          = 0.;
     Number              mean_          = 0.;
     double              initial_angle_ = 0.;

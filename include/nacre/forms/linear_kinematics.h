@@ -5,8 +5,8 @@
 #define nacre_forms_linear_kinematics_h
 
 #include <nacre/forms/cell_stiffness.h>
-#include <nacre/forms/hinge_form.h>
 #include <nacre/forms/kinematics.h>
+#include <nacre/forms/rotation_jump.h>
 
 #include <optional>
 
@@ -15,7 +15,7 @@ namespace Nacre
   /**
    * Small displacements: cell terms (32)-(33) and, for sections that couple
    * membrane and bending, int eps(v):B:rho(u) + rho(v):B^T:eps(u) dA; edges in
-   * hinge form,
+   * rotation-jump form,
    *
    * a^e(u,v) = int eta^e D [[theta(u)]] [[theta(v)]]       penalty
    *              - {m_nn(v)} [[theta(u)]]                  symmetry
@@ -94,12 +94,12 @@ namespace Nacre
                        const Vector<double>  &u,
                        LocalTerms            &terms);
 
-    /** Rows whose product is the tangent of the point of hinge_. */
+    /** Rows whose product is the tangent of the point of jump_. */
     void
-    fill_edge_rows(const unsigned int q, const HingeFluxes &fluxes);
+    fill_edge_rows(const unsigned int q, const EdgeFluxes &fluxes);
 
     void
-    add_edge_residual(const HingeFluxes    &fluxes,
+    add_edge_residual(const EdgeFluxes     &fluxes,
                       const double          rotation,
                       const Vector<double> &u,
                       LocalTerms           &terms) const;
@@ -110,7 +110,7 @@ namespace Nacre
 
     CellStiffness      stiffness_;
     FullMatrix<double> stress_rows_;
-    HingePoint         hinge_;
+    RotationJump       jump_;
     FullMatrix<double> test_rows_;
     FullMatrix<double> trial_rows_;
   };

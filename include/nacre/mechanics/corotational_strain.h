@@ -102,9 +102,7 @@ namespace Nacre
     {
       Voigt<Number> strain;
       for (unsigned int v = 0; v < 3; ++v)
-        strain[v] =
-          (v < 2 ? 1. : 2.) * (frame.a_cov_derivatives[v] * frame.t0 -
-                               deformed.a_cov_derivatives[v] * deformed.t0);
+        strain[v] = (v < 2 ? 1. : 2.) * (frame.b(v) - deformed.b(v));
       return strain;
     }
   } // namespace CorotationalStrain

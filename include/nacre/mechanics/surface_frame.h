@@ -12,7 +12,8 @@
 namespace Nacre
 {
   /**
-   * The differential geometry of the undeformed mid-surface at one point.
+   * The differential geometry of a surface at one point: of the mid-surface,
+   * undeformed or deformed, whose positions phi it is made from.
    * Greek indices are coordinates of the reference cell; a pair of them is
    * stored in the order 11, 22, 12.
    */
@@ -21,11 +22,11 @@ namespace Nacre
   {
     using Vector = Tensor<1, 3, Number>;
 
-    /** Covariant basis phi0,alpha (length). */
+    /** Covariant basis phi,alpha (length). */
     std::array<Vector, 2> a_cov;
-    /** Contravariant basis phi0^alpha, a^alpha . a_beta = delta; (12). */
+    /** Contravariant basis phi^alpha, a^alpha . a_beta = delta; (12). */
     std::array<Vector, 2> a_con;
-    /** Second derivatives phi0,11, phi0,22, phi0,12 (length). */
+    /** Second derivatives phi,11, phi,22, phi,12 (length). */
     std::array<Vector, 3> a_cov_derivatives;
     /** Unit normal a_1 x a_2 / j0. */
     Vector t0;
@@ -33,8 +34,15 @@ namespace Nacre
     Number j0;
     /** Contravariant metric a^11, a^22, a^12 (1/length^2). */
     std::array<Number, 3> metric_con;
-    /** Christoffel symbols [gamma][11, 22, 12]: a^gamma . phi0,alpha beta. */
+    /** Christoffel symbols [gamma][11, 22, 12]: a^gamma . phi,alpha beta. */
     std::array<std::array<Number, 3>, 2> christoffel;
+
+    /** Second fundamental form b_11, b_22, b_12 = phi,ab . t0 (length). */
+    Number
+    b(const unsigned int v) const
+    {
+      return a_cov_derivatives[v] * t0;
+    }
   };
 
   /**

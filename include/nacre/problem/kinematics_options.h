@@ -37,8 +37,8 @@ namespace Nacre
   /** The frame in which rotations and moments of an edge are measured. */
   enum class EdgeForm
   {
-    /** Each cell's own: the scalar hinge form, independent of creases. */
-    hinge,
+    /** Each cell's own: the scalar form, independent of creases. */
+    rotation_jump,
     /** That of the averaged normal: the report's form (14), (34)-(45). */
     averaged_normal
   };
@@ -83,7 +83,7 @@ namespace Nacre
   {
     KinematicsOptions(
       const MembraneStrain  membrane_strain = MembraneStrain::tied,
-      const EdgeForm        edge_form       = EdgeForm::hinge,
+      const EdgeForm        edge_form       = EdgeForm::rotation_jump,
       const KinematicsModel model           = KinematicsModel::linear,
       const TangentType     tangent         = TangentType::symmetric)
       : membrane_strain(membrane_strain)

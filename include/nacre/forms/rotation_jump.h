@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_forms_hinge_form_h
-#define nacre_forms_hinge_form_h
+#ifndef nacre_forms_rotation_jump_h
+#define nacre_forms_rotation_jump_h
 
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/section_law.h>
@@ -10,12 +10,13 @@
 namespace Nacre
 {
   /**
-   * The quantities of the hinge form at one point of one side of an edge, for
-   * the shape function of each node: a displacement N e_c has the rotation
-   * rotation[a] * t0_c and the moment moment[a] * t0_c, to which sections with
+   * The quantities of the rotation-jump form at one point of one side of an
+   * edge, for the shape function of each node: a displacement N e_c has the
+   * rotation rotation[a] * t0_c and the moment moment[a] * t0_c, to which
+   * sections with
    * coupling add that of the membrane strain, membrane_moment[a][c].
    */
-  struct HingeSide
+  struct JumpSide
   {
     /** theta = t0 . du/dnu of the shape functions, per t0 (1/length). */
     std::vector<double> rotation;
@@ -64,7 +65,7 @@ namespace Nacre
    * penalty [[theta(u)]] [[theta(v)]] + symmetry {m_nn(v)} [[theta(u)]] +
    * consistency [[theta(v)]] {m_nn(u)}.
    */
-  struct HingeFluxes
+  struct EdgeFluxes
   {
     double penalty;
     double symmetry;
@@ -76,18 +77,18 @@ namespace Nacre
    * @param stiffness D (force times length)
    * @param penalty eta^e (1/length)
    */
-  HingeFluxes
-  hinge_fluxes(const ShellEdgeValues &edge,
-               const unsigned int     q,
-               const double           stiffness,
-               const double           penalty);
+  EdgeFluxes
+  edge_fluxes(const ShellEdgeValues &edge,
+              const unsigned int     q,
+              const double           stiffness,
+              const double           penalty);
 
   /**
    * [[theta]], {m_nn} of all dofs of an edge and D at one point:
    * formulation.md section 3. On the boundary [[theta]] = -theta^- and {m_nn}
    * = m_nn^-, the mirror image's.
    */
-  class HingePoint
+  class RotationJump
   {
   public:
     void
@@ -117,7 +118,7 @@ namespace Nacre
     }
 
   private:
-    HingeSide           side_;
+    JumpSide            side_;
     std::vector<double> rotation_jump_;
     std::vector<double> mean_moment_;
     double              stiffness_ = 0.;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/forms/hinge_form.h>
+#include <nacre/forms/rotation_jump.h>
 #include <nacre/mechanics/shell_strain.h>
 
 namespace Nacre
 {
   void
-  HingeSide::reinit(const ShellEdgeValues &edge,
-                    const unsigned int     side,
-                    const unsigned int     q,
-                    const SectionLaw      &section)
+  JumpSide::reinit(const ShellEdgeValues &edge,
+                   const unsigned int     side,
+                   const unsigned int     q,
+                   const SectionLaw      &section)
   {
     const auto  &frame  = edge.frame(side, q);
     const auto  &shapes = edge.shapes(side);
@@ -29,8 +29,7 @@ namespace Nacre
     stiffness        = dyad * H_nu;
     curvature_moment = 0.;
     for (unsigned int v = 0; v < 3; ++v)
-      curvature_moment += sigma * (v < 2 ? 1. : 2.) * H_nu[v] *
-                          (frame.a_cov_derivatives[v] * frame.t0);
+      curvature_moment += sigma * (v < 2 ? 1. : 2.) * H_nu[v] * frame.b(v);
     rotation.resize(shapes.n_nodes());
     moment.resize(shapes.n_nodes());
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
@@ -52,8 +51,8 @@ namespace Nacre
   }
 
   void
-  HingeSide::fill_membrane_moment(const FullMatrix<double> &rows,
-                                  const unsigned int        q)
+  JumpSide::fill_membrane_moment(const FullMatrix<double> &rows,
+                                 const unsigned int        q)
   {
     membrane_moment.resize(rotation.size());
     for (unsigned int a = 0; a < rotation.size(); ++a)
@@ -63,17 +62,17 @@ namespace Nacre
             coupling[v] * rows(3 * q + v, spacedim * a + c);
   }
 
-  HingeFluxes
-  hinge_fluxes(const ShellEdgeValues &edge,
-               const unsigned int     q,
-               const double           stiffness,
-               const double           penalty)
+  EdgeFluxes
+  edge_fluxes(const ShellEdgeValues &edge,
+              const unsigned int     q,
+              const double           stiffness,
+              const double           penalty)
   {
     // The mirror image of a boundary cell doubles the penalty.
     const double factor = edge.n_sides() == 2 ? 1. : 2.;
     const double dx     = edge.JxW(q);
 
-    HingeFluxes fluxes;
+    EdgeFluxes fluxes;
     fluxes.penalty     = factor * penalty * stiffness * dx;
     fluxes.symmetry    = -dx;
     fluxes.consistency = -dx;
@@ -81,9 +80,9 @@ namespace Nacre
   }
 
   void
-  HingePoint::reinit(const ShellEdgeValues &edge,
-                     const unsigned int     q,
-                     const SectionLaw      &section)
+  RotationJump::reinit(const ShellEdgeValues &edge,
+                       const unsigned int     q,
+                       const SectionLaw      &section)
   {
     rotation_jump_.assign(edge.n_dofs(), 0.);
     mean_moment_.assign(edge.n_dofs(), 0.);
