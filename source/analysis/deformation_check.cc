@@ -285,7 +285,8 @@ namespace Nacre
                  const PrescribedRotations &rotations,
                  const double               allowed)
   {
-    const auto gap = shell_operator.largest_rotation_gap(u, rotations);
+    const auto gap =
+      shell_operator.rotation_conditions().largest_gap(u, rotations);
     if (gap.angle <= allowed)
       return "";
     std::ostringstream text;

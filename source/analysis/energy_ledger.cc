@@ -106,13 +106,12 @@ namespace Nacre
     if (step.conserves)
       after.prescribed_work += reaction_work(step, ghosted_mean);
     after.prescribed_work +=
-      shell.rotation_work(step.step_start, end, system_.actions().rotations);
+      shell.rotation_conditions().work(step.step_start,
+                                       end,
+                                       system_.actions().rotations);
 
     Vector loads = system_.owned_vector();
-    shell.loads(ghosted_mean,
-                &step.step_start.u,
-                loads,
-                system_.actions().loads);
+    shell.loads(ghosted_mean, loads, system_.actions().loads, &step.step_start);
     after.external_work += loads * change;
     if (damping_ > 0.)
       after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);

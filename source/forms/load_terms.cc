@@ -27,79 +27,51 @@ namespace Nacre
     }
   } // namespace
 
-  LoadTerms::LoadTerms(const Discretization &discretization,
-                       const SectionLaw     &section,
-                       const Loads          &loads)
-    : discretization_(discretization)
+  SurfaceLoadTerm::SurfaceLoadTerm(const SectionLaw &section,
+                                   const Loads      &loads)
+    : LoadTerm(loads)
     , section_(section)
-    , loads_(loads)
-  {
-    for (const auto &force : loads_.point_forces())
-      force_points_.push_back(
-        discretization_.locate(force.position, force.source));
-  }
-
-  bool
-  LoadTerms::act_on(const types::boundary_id id) const
-  {
-    return loads_.edge_forces().count(id) > 0 ||
-           loads_.edge_moments().count(id) > 0;
-  }
+  {}
 
   void
-  LoadTerms::subtract_on_cell(const ShellCellValues        &values,
-                              const dealii::Vector<double> &u,
-                              const dealii::Vector<double> &u_start,
-                              const Instant                &instant,
-                              LocalTerms                   &terms) const
+  SurfaceLoadTerm::add_on_cell(TermCell &cell, LocalTerms &terms) const
   {
-    if (!loads_.no_surface_load())
-      subtract_surface_loads(values, instant, terms.residual);
-    if (loads_.pressure_follows())
-      subtract_following_pressure(values, u, u_start, instant, terms);
-  }
-
-  void
-  LoadTerms::subtract_surface_loads(const ShellCellValues  &values,
-                                    const Instant          &instant,
-                                    dealii::Vector<double> &residual) const
-  {
-    const auto               &shapes = values.shapes();
-    const unsigned int *const dofs   = discretization_.node_dofs().data();
+    const ShellCellValues &values = cell.values();
+    const auto            &shapes = values.shapes();
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
         const auto   x            = values.point(q);
         const double area_density = section_.density(x) * section_.thickness(x);
         const auto   load =
-          values.JxW(q) *
-          loads_.force_per_area(x, values.frame(q).t0, area_density, instant);
+          values.JxW(q) * loads_.force_per_area(x,
+                                                values.frame(q).t0,
+                                                area_density,
+                                                cell.actions.loads);
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
-            residual[dofs[spacedim * a + c]] -= shapes.value(q, a) * load[c];
+            terms.residual[values.dof(a, c)] -= shapes.value(q, a) * load[c];
       }
   }
 
   void
-  LoadTerms::subtract_following_pressure(const ShellCellValues        &values,
-                                         const dealii::Vector<double> &u,
-                                         const dealii::Vector<double> &u_start,
-                                         const Instant                &instant,
-                                         LocalTerms &terms) const
+  FollowingPressureTerm::add_on_cell(TermCell &cell, LocalTerms &terms) const
   {
-    const auto &shapes = values.shapes();
+    const ShellCellValues &values = cell.values();
+    const LocalState      &state  = cell.state;
+    const auto            &shapes = values.shapes();
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
-        const auto   du  = displacement_gradient(values, q, u);
+        const auto   du  = displacement_gradient(values, q, state.u);
         const auto  &a   = values.frame(q).a_cov;
         const auto   phi = std::array<Vector3, 2>{{a[0] + du[0], a[1] + du[1]}};
-        const double p   = loads_.pressure(values.point(q), instant) *
+        const double p = loads_.pressure(values.point(q), cell.actions.loads) *
                          values.JxW(q) / values.frame(q).j0;
         Vector3 force = p * cross_product_3d(phi[0], phi[1]);
-        if (u_start.size() > 0)
+        if (state.is_step())
           {
             // The mean over phi + s Delta(phi), s from -1/2 to 1/2, and
             // Delta(phi) = 2 (u - u_start)
-            const auto start = displacement_gradient(values, q, u_start);
+            const auto start = displacement_gradient(values, q, state.u_start);
             force +=
               p / 3. * cross_product_3d(du[0] - start[0], du[1] - start[1]);
           }
@@ -125,48 +97,63 @@ namespace Nacre
       }
   }
 
-  void
-  LoadTerms::subtract_on_edge(const types::boundary_id      id,
-                              const ShellEdgeValues        &edge,
-                              const dealii::Vector<double> &u,
-                              const Instant                &instant,
-                              Kinematics                   &kinematics,
-                              LocalTerms                   &terms) const
+  bool
+  EdgeLoadTerm::acts_on_boundary(const types::boundary_id id,
+                                 const std::pair<unsigned int, unsigned int> &,
+                                 const ShellActions &) const
   {
-    const auto moment = loads_.edge_moments().find(id);
-    if (moment != loads_.edge_moments().end())
-      {
-        std::vector<double> values(edge.n_points());
-        for (unsigned int q = 0; q < values.size(); ++q)
-          values[q] = moment->second(edge.point(q), instant);
-        kinematics.add_moment_terms(edge, values, u, terms);
-      }
-    const auto force = loads_.edge_forces().find(id);
-    if (force == loads_.edge_forces().end())
-      return;
-    const auto &shapes = edge.shapes(0);
-    for (unsigned int q = 0; q < edge.n_points(); ++q)
-      {
-        const auto f = edge.JxW(q) * force->second(edge.point(q), instant);
-        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            terms.residual[edge.dof(0, a, c)] -= shapes.value(q, a) * f[c];
-      }
+    return loads_.edge_forces().count(id) > 0 ||
+           loads_.edge_moments().count(id) > 0;
   }
 
   void
-  LoadTerms::add_point_forces(const AffineConstraints<double> &constraints,
-                              const double                     factor,
-                              const Instant                   &instant,
-                              TrilinosWrappers::MPI::Vector   &vector) const
+  EdgeLoadTerm::add_on_boundary(const TermEdge &edge, LocalTerms &terms) const
+  {
+    const ShellEdgeValues &values  = edge.values;
+    const Instant         &instant = edge.actions.loads;
+    const auto moment = loads_.edge_moments().find(edge.boundary_id);
+    if (moment != loads_.edge_moments().end())
+      {
+        std::vector<double> moments(values.n_points());
+        for (unsigned int q = 0; q < moments.size(); ++q)
+          moments[q] = moment->second(values.point(q), instant);
+        edge.kinematics.add_moment_terms(values, moments, edge.state.u, terms);
+      }
+    const auto force = loads_.edge_forces().find(edge.boundary_id);
+    if (force == loads_.edge_forces().end())
+      return;
+    const auto &shapes = values.shapes(0);
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto f = values.JxW(q) * force->second(values.point(q), instant);
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            terms.residual[values.dof(0, a, c)] -= shapes.value(q, a) * f[c];
+      }
+  }
+
+  PointForceTerm::PointForceTerm(const Discretization &discretization,
+                                 const Loads          &loads)
+    : LoadTerm(loads)
+    , discretization_(discretization)
+  {
+    for (const auto &force : loads_.point_forces())
+      places_.push_back(discretization_.locate(force.position, force.source));
+  }
+
+  void
+  PointForceTerm::add_point_forces(
+    const AffineConstraints<double> &constraints,
+    const ShellActions              &actions,
+    TrilinosWrappers::MPI::Vector   &right_hand_side) const
   {
     const auto &fe = discretization_.scalar_fe();
-    for (unsigned int k = 0; k < force_points_.size(); ++k)
+    for (unsigned int k = 0; k < places_.size(); ++k)
       {
         // On all ranks: a value that isn't finite must throw on all.
         const auto &load  = loads_.point_forces()[k];
-        const auto  force = load.force(load.position, instant);
-        const auto &place = force_points_[k];
+        const auto  force = load.force(load.position, actions.loads);
+        const auto &place = places_[k];
         if (!place.is_mine)
           continue;
         const auto             n = discretization_.node_dofs().size();
@@ -176,9 +163,9 @@ namespace Nacre
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             local[discretization_.node_dofs()[spacedim * a + c]] =
-              factor * fe.shape_value(a, place.unit) * force[c];
-        constraints.distribute_local_to_global(local, dofs, vector);
+              fe.shape_value(a, place.unit) * force[c];
+        constraints.distribute_local_to_global(local, dofs, right_hand_side);
       }
-    vector.compress(VectorOperation::add);
+    right_hand_side.compress(VectorOperation::add);
   }
 } // namespace Nacre

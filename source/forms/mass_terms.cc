@@ -94,7 +94,7 @@ namespace Nacre
         {
           cell->get_dof_indices(dofs);
           local = 0.;
-          Inertia{*this, v, 0.}.add(cell, dofs, node_dofs, local, nullptr);
+          add_on_cell(cell, dofs, v, 0., local, nullptr);
           result.add(dofs, std::vector<double>(local.begin(), local.end()));
         }
     result.compress(VectorOperation::add);
@@ -118,11 +118,7 @@ namespace Nacre
         {
           cell->get_dof_indices(dofs);
           local = 0.;
-          Inertia{*this, ghosted_b, 1.}.add(cell,
-                                            dofs,
-                                            node_dofs,
-                                            unused,
-                                            &local);
+          add_on_cell(cell, dofs, ghosted_b, 1., unused, &local);
           constraints.distribute_local_to_global(local, dofs, matrix);
         }
     matrix.compress(VectorOperation::add);
@@ -140,13 +136,16 @@ namespace Nacre
   }
 
   void
-  Inertia::add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-               const std::vector<types::global_dof_index>            &dofs,
-               const std::vector<unsigned int>                       &node_dofs,
-               dealii::Vector<double>                                &residual,
-               FullMatrix<double> *tangent) const
+  MassTerms::add_on_cell(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const std::vector<types::global_dof_index>        &dofs,
+    const Vector                                      &w,
+    const double                                       factor,
+    dealii::Vector<double>                            &residual,
+    FullMatrix<double>                                *tangent) const
   {
-    const auto &M = mass.cell_matrix(cell);
+    const auto &M         = cell_matrix(cell);
+    const auto &node_dofs = discretization_.node_dofs();
     for (unsigned int a = 0; a < M.m(); ++a)
       for (unsigned int b = 0; b < M.n(); ++b)
         for (unsigned int c = 0; c < spacedim; ++c)
@@ -157,5 +156,26 @@ namespace Nacre
             if (tangent != nullptr)
               (*tangent)(i, j) += factor * M(a, b);
           }
+  }
+
+  Inertia::Inertia(const MassTerms                     &mass,
+                   const TrilinosWrappers::MPI::Vector &w,
+                   const double                         factor,
+                   const StepStart                     *start)
+    : start(start)
+    , mass_(mass)
+    , w_(w)
+    , factor_(factor)
+  {}
+
+  void
+  Inertia::add_on_cell(TermCell &cell, LocalTerms &terms) const
+  {
+    mass_.add_on_cell(cell.cell,
+                      cell.dofs,
+                      w_,
+                      factor_,
+                      terms.residual,
+                      terms.wants_tangent ? &terms.tangent : nullptr);
   }
 } // namespace Nacre

@@ -5,37 +5,13 @@
 #include <nacre/forms/matrix_scatter.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/forms/shell_pattern.h>
-#include <nacre/problem/shell_model.h>
 
 #include <deal.II/meshworker/mesh_loop.h>
 
+#include <algorithm>
+
 namespace Nacre
 {
-  struct ShellOperator::ScratchData
-  {
-    ScratchData(const Discretization &discretization,
-                const Kinematics     &kinematics)
-      : kinematics(kinematics.clone())
-      , edge(discretization)
-    {}
-
-    ScratchData(const ScratchData &other)
-      : kinematics(other.kinematics->clone())
-      , edge(other.edge)
-    {}
-
-    /** Set both ends of a step of which u is the mean. */
-    void
-    set_ends(const StepStart                            &start,
-             const std::vector<types::global_dof_index> &dofs);
-
-    std::unique_ptr<Kinematics> kinematics;
-    ShellEdgeValues             edge;
-    dealii::Vector<double>      u;
-    dealii::Vector<double>      u_start;
-    dealii::Vector<double>      u_end;
-  };
-
   struct ShellOperator::FaceCopy
   {
     LocalTerms                           terms;
@@ -127,6 +103,12 @@ namespace Nacre
         local[i] = (*u)(dofs[i]);
     }
 
+    const StepStart *
+    start_of(const Inertia *inertia)
+    {
+      return inertia != nullptr ? inertia->start : nullptr;
+    }
+
     Energies
     sum_over_ranks(const Energies &mine, const MPI_Comm communicator)
     {
@@ -138,53 +120,149 @@ namespace Nacre
     }
   } // namespace
 
-  void
-  ShellOperator::ScratchData::set_ends(
-    const StepStart                            &start,
-    const std::vector<types::global_dof_index> &dofs)
+  /** What a loop calls for cells, interior edges and boundary edges. */
+  class ShellOperator::Worker
   {
-    extract(&start.u, dofs, u_start);
-    u_end = u;
-    u_end.sadd(2., -1., u_start);
-  }
+  public:
+    Worker(const ShellOperator &shell,
+           const TermPointers  &terms,
+           const State         &state)
+      : shell_(shell)
+      , terms_(terms)
+      , state_(state)
+      , kinematics_(shell.kinematics_->clone())
+      , edge_(shell.discretization_)
+    {}
+
+    /** mesh_loop() copies it: scratch data of its own. */
+    Worker(const Worker &other)
+      : Worker(other.shell_, other.terms_, other.state_)
+    {}
+
+    void
+    work_on_cell(const Cell &cell, CopyData &copy)
+    {
+      copy.terms.wants_tangent = copy.wants_tangent;
+      copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(copy.dofs);
+      copy.terms.reinit(copy.dofs.size());
+      extract_state(copy.dofs);
+      TermCell place(cell, copy.dofs, local_, state_.actions, *kinematics_);
+      for (const Term *term : terms_)
+        term->add_on_cell(place, copy.terms);
+    }
+
+    void
+    work_between_cells(const Cell        &cell,
+                       const unsigned int face,
+                       const unsigned int subface,
+                       const Cell        &neighbor,
+                       const unsigned int neighbor_face,
+                       const unsigned int neighbor_subface,
+                       CopyData          &copy)
+    {
+      edge_
+        .reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
+      FaceCopy      &result = start_edge(copy);
+      const TermEdge place{edge_,
+                           shell_.penalty_.interior(cell, neighbor),
+                           local_,
+                           state_.actions,
+                           *kinematics_,
+                           numbers::internal_face_boundary_id,
+                           {}};
+      for (const Term *term : terms_)
+        term->add_between_cells(place, result.terms);
+      copy.take_block(result);
+    }
+
+    void
+    work_on_boundary(const Cell &cell, const unsigned int face, CopyData &copy)
+    {
+      const auto id = cell->face(face)->boundary_id();
+      const std::pair<unsigned int, unsigned int> key{cell->active_cell_index(),
+                                                      face};
+      const auto                                  acts = [&](const Term *term) {
+        return term->acts_on_boundary(id, key, state_.actions);
+      };
+      if (std::none_of(terms_.begin(), terms_.end(), acts))
+        return;
+      edge_.reinit(cell, face);
+      FaceCopy      &result = start_edge(copy);
+      const TermEdge place{edge_,
+                           shell_.penalty_.boundary(cell),
+                           local_,
+                           state_.actions,
+                           *kinematics_,
+                           id,
+                           key};
+      for (const Term *term : terms_)
+        if (acts(term))
+          term->add_on_boundary(place, result.terms);
+      copy.take_block(result);
+    }
+
+  private:
+    /** The state on the edge, and zero terms. */
+    FaceCopy &
+    start_edge(CopyData &copy)
+    {
+      FaceCopy &result = copy.next_face();
+      result.dofs      = edge_.dof_indices();
+      result.terms.reinit(result.dofs.size());
+      extract_state(result.dofs);
+      return result;
+    }
+
+    void
+    extract_state(const std::vector<types::global_dof_index> &dofs)
+    {
+      extract(state_.u, dofs, local_.u);
+      if (state_.start == nullptr)
+        return;
+      extract(&state_.start->u, dofs, local_.u_start);
+      local_.u_end = local_.u;
+      local_.u_end.sadd(2., -1., local_.u_start);
+      local_.rotations_start = &state_.start->rotations;
+    }
+
+    const ShellOperator        &shell_;
+    const TermPointers         &terms_;
+    const State                &state_;
+    std::unique_ptr<Kinematics> kinematics_;
+    ShellEdgeValues             edge_;
+    LocalState                  local_;
+  };
 
   ShellOperator::ShellOperator(const Discretization &discretization,
-                               const ShellModel     &model)
-    : ShellOperator(discretization,
-                    model.section,
-                    model.supports,
-                    model.loads,
-                    model.kinematics,
-                    model.eta,
-                    model.load_factor ? &*model.load_factor : nullptr)
-  {}
-
-  ShellOperator::ShellOperator(const Discretization        &discretization,
-                               const SectionLaw            &section,
-                               const BoundaryConditions    &boundary_conditions,
-                               const Loads                 &loads,
-                               const KinematicsOptions     &kinematics_options,
-                               const std::optional<double> &eta,
-                               const Expression            *load_factor)
+                               const ShellParts     &parts,
+                               const TermSelection   selection)
     : discretization_(discretization)
-    , section_(section)
-    , boundary_conditions_(boundary_conditions)
-    , loads_(loads)
-    , load_terms_(discretization, section, loads)
     , penalty_(discretization,
-               section,
+               parts.section,
                // Strains that vanish at few points only must not count as none.
                discretization.element().full_quadrature(),
-               eta)
-    , kinematics_(make_kinematics(discretization, section, kinematics_options))
-    , symmetrizes_(kinematics_options.tangent != TangentType::consistent)
-    , has_deformed_levers_(kinematics_options.model != KinematicsModel::linear)
-    , load_factor_(load_factor)
+               parts.eta)
+    , kinematics_(
+        make_kinematics(discretization, parts.section, parts.kinematics))
+    , rotation_conditions_(discretization,
+                           parts.supports,
+                           parts.load_factor,
+                           penalty_,
+                           *kinematics_)
+    , terms_(make_terms(discretization, parts, selection))
+    , symmetrizes_(parts.kinematics.tangent != TangentType::consistent)
+  {}
+
+  ShellOperator::TermPointers
+  ShellOperator::terms_at(const State &state) const
   {
-    AssertThrow(!loads_.has_pressure() || is_consistently_oriented(),
-                ExcMessage("Loads/Pressure: neighbouring cells have opposite "
-                           "normals, so that a pressure has no direction; use "
-                           "Force per area."));
+    TermPointers terms;
+    for (const auto &term : terms_)
+      terms.push_back(term.get());
+    if (state.inertia != nullptr)
+      terms.push_back(state.inertia);
+    return terms;
   }
 
   void
@@ -200,10 +278,7 @@ namespace Nacre
                                  Vector &right_hand_side) const
   {
     const ShellActions at_start = actions(Instant());
-    assemble_at({nullptr, at_start, nullptr},
-                constraints,
-                matrix,
-                right_hand_side);
+    assemble_at({nullptr, at_start}, constraints, matrix, right_hand_side);
   }
 
   Energies
@@ -214,9 +289,11 @@ namespace Nacre
                           Vector                          &right_hand_side,
                           const Inertia                   *inertia) const
   {
-    return sum_over_ranks(
-      assemble_at({&u, actions, inertia}, constraints, matrix, right_hand_side),
-      discretization_.communicator());
+    return sum_over_ranks(assemble_at({&u, actions, inertia, start_of(inertia)},
+                                      constraints,
+                                      matrix,
+                                      right_hand_side),
+                          discretization_.communicator());
   }
 
   Energies
@@ -231,31 +308,30 @@ namespace Nacre
     dealii::Vector<double> force;
     FullMatrix<double>     tangent;
     Energies               sum;
-    loop(state, true, [&](const CopyData &copy) {
-      copy.for_each([&](const LocalTerms  &terms,
+    const TermPointers     terms = terms_at(state);
+    loop(terms, state, true, [&](const CopyData &copy) {
+      copy.for_each([&](const LocalTerms  &local,
                         const auto        &dofs,
                         const unsigned int n_done) {
-        force = terms.residual;
+        force = local.residual;
         force *= -1.;
         if (state.u == nullptr || !symmetrizes_)
-          scatter.add(terms.tangent, force, dofs, n_done);
+          scatter.add(local.tangent, force, dofs, n_done);
         else
           {
             // Nearly symmetric: its symmetric part iterates as well, and
             // suits a symmetric solver.
-            tangent = terms.tangent;
+            tangent = local.tangent;
             tangent.symmetrize();
             scatter.add(tangent, force, dofs, n_done);
           }
-        sum += terms.energies;
+        sum += local.energies;
       });
     });
     matrix.compress(VectorOperation::add);
     right_hand_side.compress(VectorOperation::add);
-    load_terms_.add_point_forces(constraints,
-                                 1.,
-                                 state.actions.loads,
-                                 right_hand_side);
+    for (const Term *term : terms)
+      term->add_point_forces(constraints, state.actions, right_hand_side);
     return sum;
   }
 
@@ -265,22 +341,51 @@ namespace Nacre
                           Vector             &result,
                           const Inertia      *inertia) const
   {
+    const State    state{&u, actions, inertia, start_of(inertia)};
+    const Energies mine = sum_residuals(terms_at(state), state, result);
+    return sum_over_ranks(mine, discretization_.communicator());
+  }
+
+  Energies
+  ShellOperator::sum_residuals(const TermPointers &terms,
+                               const State        &state,
+                               Vector             &result) const
+  {
     result = 0.;
     Energies sum;
-    loop({&u, actions, inertia}, false, [&](const CopyData &copy) {
+    loop(terms, state, false, [&](const CopyData &copy) {
       copy.for_each(
-        [&](const LocalTerms &terms, const auto &dofs, unsigned int) {
+        [&](const LocalTerms &local, const auto &dofs, unsigned int) {
           result.add(dofs,
-                     std::vector<double>(terms.residual.begin(),
-                                         terms.residual.end()));
-          sum += terms.energies;
+                     std::vector<double>(local.residual.begin(),
+                                         local.residual.end()));
+          sum += local.energies;
         });
     });
     result.compress(VectorOperation::add);
+    // Those of points go to the other side of the equation.
     AffineConstraints<double> none;
     none.close();
-    load_terms_.add_point_forces(none, -1., actions.loads, result);
-    return sum_over_ranks(sum, discretization_.communicator());
+    result *= -1.;
+    for (const Term *term : terms)
+      term->add_point_forces(none, state.actions, result);
+    result *= -1.;
+    return sum;
+  }
+
+  void
+  ShellOperator::loads(const Vector    &u,
+                       Vector          &result,
+                       const Instant   &instant,
+                       const StepStart *start) const
+  {
+    const ShellActions actions{instant, {}};
+    TermPointers       loads;
+    for (const auto &term : terms_)
+      if (term->is_load())
+        loads.push_back(term.get());
+    sum_residuals(loads, {&u, actions, nullptr, start}, result);
+    result *= -1.;
   }
 
   Energies
@@ -292,53 +397,44 @@ namespace Nacre
   }
 
   void
-  ShellOperator::loop(const State  &state,
-                      const bool    wants_tangent,
-                      const Copier &copier) const
+  ShellOperator::loop(const TermPointers &terms,
+                      const State        &state,
+                      const bool          wants_tangent,
+                      const Copier       &copier) const
   {
-    const StepStart *const start = state.start();
-
     const auto cell_worker =
-      [&](const Cell &cell, ScratchData &scratch, CopyData &copy) {
-        this->cell_worker(cell, state, scratch, copy);
+      [](const Cell &cell, Worker &worker, CopyData &copy) {
+        worker.work_on_cell(cell, copy);
       };
-    const auto face_worker = [&](const Cell        &cell,
-                                 const unsigned int f,
-                                 const unsigned int sf,
-                                 const Cell        &neighbor,
-                                 const unsigned int nf,
-                                 const unsigned int nsf,
-                                 ScratchData       &scratch,
-                                 CopyData          &copy) {
-      scratch.edge.reinit(cell, f, sf, neighbor, nf, nsf);
-      FaceCopy &face = copy.next_face();
-      face.dofs      = scratch.edge.dof_indices();
-      face.terms.reinit(face.dofs.size());
-      extract(state.u, face.dofs, scratch.u);
-      const double penalty = penalty_.interior(cell, neighbor);
-      if (start == nullptr)
-        scratch.kinematics->add_edge_terms(scratch.edge,
-                                           penalty,
-                                           scratch.u,
-                                           face.terms);
-      else
-        {
-          scratch.set_ends(*start, face.dofs);
-          scratch.kinematics->add_edge_step_terms(scratch.edge,
-                                                  penalty,
-                                                  scratch.u_start,
-                                                  scratch.u_end,
-                                                  face.terms);
-        }
-      copy.take_block(face);
+    const auto boundary_worker = [](const Cell        &cell,
+                                    const unsigned int face,
+                                    Worker            &worker,
+                                    CopyData          &copy) {
+      worker.work_on_boundary(cell, face, copy);
     };
-    const auto boundary_worker = [&](const Cell        &cell,
-                                     const unsigned int f,
-                                     ScratchData       &scratch,
-                                     CopyData          &copy) {
-      this->boundary_worker(cell, f, state, scratch, copy);
+    const auto face_worker = [](const Cell        &cell,
+                                const unsigned int face,
+                                const unsigned int subface,
+                                const Cell        &neighbor,
+                                const unsigned int neighbor_face,
+                                const unsigned int neighbor_subface,
+                                Worker            &worker,
+                                CopyData          &copy) {
+      worker.work_between_cells(cell,
+                                face,
+                                subface,
+                                neighbor,
+                                neighbor_face,
+                                neighbor_subface,
+                                copy);
     };
-
+    auto what =
+      MeshWorker::assemble_own_cells | MeshWorker::assemble_boundary_faces;
+    if (std::any_of(terms.begin(), terms.end(), [](const Term *term) {
+          return term->acts_between_cells();
+        }))
+      what = what | MeshWorker::assemble_own_interior_faces_once |
+             MeshWorker::assemble_ghost_faces_once;
     CopyData copy;
     copy.wants_tangent = wants_tangent;
     // The user's expressions may be undefined on the cells of one rank only.
@@ -347,94 +443,11 @@ namespace Nacre
                             discretization_.dof_handler().end(),
                             cell_worker,
                             copier,
-                            ScratchData(discretization_, *kinematics_),
+                            Worker(*this, terms, state),
                             copy,
-                            MeshWorker::assemble_own_cells |
-                              MeshWorker::assemble_own_interior_faces_once |
-                              MeshWorker::assemble_ghost_faces_once |
-                              MeshWorker::assemble_boundary_faces,
+                            what,
                             boundary_worker,
                             face_worker);
     });
-  }
-
-  void
-  ShellOperator::cell_worker(const Cell  &cell,
-                             const State &state,
-                             ScratchData &scratch,
-                             CopyData    &copy) const
-  {
-    copy.terms.wants_tangent = copy.wants_tangent;
-    copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
-    cell->get_dof_indices(copy.dofs);
-    copy.terms.reinit(copy.dofs.size());
-    extract(state.u, copy.dofs, scratch.u);
-    if (state.start() == nullptr)
-      scratch.kinematics->add_cell_terms(cell, scratch.u, copy.terms);
-    else
-      {
-        scratch.set_ends(*state.start(), copy.dofs);
-        scratch.kinematics->add_cell_step_terms(cell,
-                                                scratch.u_start,
-                                                scratch.u_end,
-                                                copy.terms);
-      }
-    load_terms_.subtract_on_cell(scratch.kinematics->cell_values(),
-                                 scratch.u,
-                                 scratch.u_start,
-                                 state.actions.loads,
-                                 copy.terms);
-    if (state.inertia != nullptr)
-      state.inertia->add(cell,
-                         copy.dofs,
-                         discretization_.node_dofs(),
-                         copy.terms.residual,
-                         copy.wants_tangent ? &copy.terms.tangent : nullptr);
-  }
-
-  void
-  ShellOperator::boundary_worker(const Cell        &cell,
-                                 const unsigned int f,
-                                 const State       &state,
-                                 ScratchData       &scratch,
-                                 CopyData          &copy) const
-  {
-    const auto                          id = cell->face(f)->boundary_id();
-    const std::pair<unsigned, unsigned> place{cell->active_cell_index(), f};
-    const auto rotation = state.actions.rotations.find(place);
-    const bool rotates  = (rotation != state.actions.rotations.end());
-    if (!rotates && !load_terms_.act_on(id))
-      return;
-
-    scratch.edge.reinit(cell, f);
-    FaceCopy &face = copy.next_face();
-    face.dofs      = scratch.edge.dof_indices();
-    face.terms.reinit(face.dofs.size());
-    extract(state.u, face.dofs, scratch.u);
-    if (rotates && state.start() == nullptr)
-      scratch.kinematics->add_rotation_terms(scratch.edge,
-                                             penalty_.boundary(cell),
-                                             rotation->second,
-                                             scratch.u,
-                                             face.terms);
-    else if (rotates)
-      {
-        scratch.set_ends(*state.start(), face.dofs);
-        scratch.kinematics->add_rotation_step_terms(scratch.edge,
-                                                    penalty_.boundary(cell),
-                                                    state.start()->rotations.at(
-                                                      place),
-                                                    rotation->second,
-                                                    scratch.u_start,
-                                                    scratch.u_end,
-                                                    face.terms);
-      }
-    load_terms_.subtract_on_edge(id,
-                                 scratch.edge,
-                                 scratch.u,
-                                 state.actions.loads,
-                                 *scratch.kinematics,
-                                 face.terms);
-    copy.take_block(face);
   }
 } // namespace Nacre

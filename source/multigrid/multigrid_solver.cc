@@ -146,7 +146,9 @@ namespace Nacre
                                                Instant(),
                                                conditions_);
     level->shell_operator =
-      std::make_unique<ShellOperator>(*level->own_discretization, model_);
+      std::make_unique<ShellOperator>(*level->own_discretization,
+                                      model_,
+                                      TermSelection::with_tangent);
     level->discretization = level->own_discretization.get();
     if (level->discretization->dof_handler().n_dofs() >=
         fine.dof_handler().n_dofs())

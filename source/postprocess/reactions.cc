@@ -202,10 +202,11 @@ namespace Nacre
         supports.all ? shell.conditions.edges() : supports.edges;
       Vector3 moment;
       for (const auto id : edges)
-        moment -=
-          shell.shell_operator.rotation_reaction(id,
-                                                 shell.displacement,
-                                                 shell.actions.rotations);
+        moment -= shell.shell_operator.rotation_conditions().reaction(
+          id,
+          shell.displacement,
+          shell.actions.rotations,
+          has_deformed_levers(shell));
       return moment;
     }
   } // namespace
@@ -280,10 +281,7 @@ namespace Nacre
 
     Vector f(shell.discretization.locally_owned_dofs(),
              shell.discretization.communicator());
-    shell.shell_operator.loads(shell.displacement,
-                               nullptr,
-                               f,
-                               shell.actions.loads);
+    shell.shell_operator.loads(shell.displacement, f, shell.actions.loads);
     loads = resultant(shell, f, origin);
     if (shell.mass == nullptr && !has_deformed_levers(shell))
       return;

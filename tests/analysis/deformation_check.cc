@@ -8,6 +8,7 @@
 
 #include "../tests_common.h"
 #include <nacre/analysis/deformation_check.h>
+#include <nacre/discretization/orientation.h>
 
 using namespace Tests;
 
@@ -242,13 +243,7 @@ test_hanging_edges()
         {
           const auto discretization =
             make_discretization(opposite ? mixed : mesh, 2);
-          const bool alike = ShellOperator(*discretization,
-                                           parameters.section,
-                                           parameters.conditions,
-                                           parameters.loads,
-                                           {},
-                                           7.)
-                               .is_consistently_oriented();
+          const bool alike = is_consistently_oriented(*discretization);
           expect(name + (opposite ? "opposite" : "same") + " orientation",
                  alike != opposite ? "" : "not seen",
                  "");

@@ -153,11 +153,11 @@ test_free_shells()
           check_free(case_name(element, strain) + name_of(model),
                      *discretization,
                      ShellOperator(*discretization,
-                                   parameters.section,
-                                   parameters.conditions,
-                                   parameters.loads,
-                                   options,
-                                   10.));
+                                   ShellParts(parameters.section,
+                                              parameters.conditions,
+                                              parameters.loads,
+                                              options,
+                                              10.)));
         }
     }
 }
@@ -197,7 +197,7 @@ test_prescribed_rotation(const KinematicsModel model)
                   start,
                   after);
   const double    rotation_work =
-    shell_operator->rotation_work(start, u_end, after.rotations);
+    shell_operator->rotation_conditions().work(start, u_end, after.rotations);
   const auto name = name_of(model) + ": prescribed rotation";
   check_below(name + ": work",
               std::abs(step.work + rotation_work - (U_end - U_start)) /
@@ -224,7 +224,7 @@ test_following_pressure()
                                    [](const auto &X) { return Vector3(X); });
     x += u;
     TrilinosVector force(x);
-    shell_operator->loads(u, nullptr, force);
+    shell_operator->loads(u, force);
     return force * x / 3.;
   };
   const auto u_start =
@@ -234,7 +234,8 @@ test_following_pressure()
   TrilinosVector mean(u_start), change(u_end), force(u_start);
   mean.sadd(0.5, 0.5, u_end);
   change -= u_start;
-  shell_operator->loads(mean, &u_start, force);
+  const StepStart step_start{u_start, {}};
+  shell_operator->loads(mean, force, Instant(), &step_start);
   const double start = volume_times_pressure(u_start);
   check_below(
     "following pressure: work",

@@ -309,11 +309,11 @@ test_mesh(const bool hanging, const unsigned int degree)
     make_discretization(difficult_mesh(hanging), degree);
   const Parameters    parameters(section_text(100., 0.3, 0.2));
   const ShellOperator shell_operator(*discretization,
-                                     parameters.section,
-                                     parameters.conditions,
-                                     parameters.loads,
-                                     finite(MembraneStrain::tied),
-                                     7.);
+                                     ShellParts(parameters.section,
+                                                parameters.conditions,
+                                                parameters.loads,
+                                                finite(MembraneStrain::tied),
+                                                7.));
   ComplexShell        complex_shell(*discretization,
                              parameters.section,
                              nullptr,

@@ -92,11 +92,11 @@ struct System
     , residual(u)
   {
     const ShellOperator shell_operator(discretization,
-                                       parameters.section,
-                                       parameters.conditions,
-                                       parameters.loads,
-                                       {MembraneStrain::tied, form},
-                                       10.);
+                                       ShellParts(parameters.section,
+                                                  parameters.conditions,
+                                                  parameters.loads,
+                                                  {MembraneStrain::tied, form},
+                                                  10.));
     matrix = dense_system(discretization,
                           shell_operator,
                           discretization.hanging_node_constraints())

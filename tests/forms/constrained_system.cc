@@ -103,11 +103,12 @@ test(const Parameters &parameters, const Element &element, const bool refined)
   AffineConstraints<double> none(discretization->locally_relevant_dofs());
   none.close();
   const ShellOperator            shell_operator(*discretization,
-                                     parameters.section,
-                                     parameters.conditions,
-                                     parameters.loads,
-                                     default_membrane_strain(element.type),
-                                     6. * element.degree);
+                                     ShellParts(parameters.section,
+                                                parameters.conditions,
+                                                parameters.loads,
+                                                default_membrane_strain(
+                                                  element.type),
+                                                6. * element.degree));
   TrilinosWrappers::SparseMatrix K, K_free;
   auto f = owned_vector(*discretization), f_free = f, x = f, r = f, r_free = f;
   shell_operator.reinit_matrix(none, K);

@@ -40,13 +40,13 @@ main(int argc, char *argv[])
                                KinematicsModel::finite})
         operators[static_cast<int>(model)] = std::make_unique<ShellOperator>(
           *discretization,
-          parameters.section,
-          parameters.conditions,
-          parameters.loads,
-          KinematicsOptions(MembraneStrain::tied,
-                            EdgeForm::rotation_jump,
-                            model),
-          10.);
+          ShellParts(parameters.section,
+                     parameters.conditions,
+                     parameters.loads,
+                     KinematicsOptions(MembraneStrain::tied,
+                                       EdgeForm::rotation_jump,
+                                       model),
+                     10.));
       TrilinosWrappers::SparseMatrix matrix;
       TrilinosVector                 force(discretization->locally_owned_dofs(),
                            MPI_COMM_WORLD);

@@ -59,12 +59,9 @@ struct Shell
   std::unique_ptr<ShellOperator>
   make_operator(const KinematicsOptions &options, const double eta = 7.) const
   {
-    return std::make_unique<ShellOperator>(*discretization,
-                                           *section,
-                                           *conditions,
-                                           *loads,
-                                           options,
-                                           eta);
+    return std::make_unique<ShellOperator>(
+      *discretization,
+      ShellParts(*section, *conditions, *loads, options, eta));
   }
 
   TextModel                       parameters;

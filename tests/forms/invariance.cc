@@ -103,11 +103,11 @@ energies_of(const Mesh       &mesh,
 {
   const auto          discretization = make_discretization(mesh, element);
   const ShellOperator shell_operator(*discretization,
-                                     parameters.section,
-                                     parameters.conditions,
-                                     parameters.loads,
-                                     MembraneStrain::tied,
-                                     {});
+                                     ShellParts(parameters.section,
+                                                parameters.conditions,
+                                                parameters.loads,
+                                                MembraneStrain::tied,
+                                                {}));
   return shell_operator.energies(interpolate(*discretization, some_field));
 }
 
@@ -155,11 +155,11 @@ test_residual(const Parameters &parameters, const Element &element)
        {MembraneStrain::tied, MembraneStrain::full, MembraneStrain::reduced})
     {
       const ShellOperator       shell_operator(*discretization,
-                                         parameters.section,
-                                         parameters.conditions,
-                                         parameters.loads,
-                                         membrane_strain,
-                                         10.);
+                                         ShellParts(parameters.section,
+                                                    parameters.conditions,
+                                                    parameters.loads,
+                                                    membrane_strain,
+                                                    10.));
       AffineConstraints<double> none;
       none.close();
       const auto [matrix, load] =
@@ -197,14 +197,11 @@ smallest_eigenvalue(const Discretization        &discretization,
 {
   const auto membrane_strain =
     default_membrane_strain(discretization.element().type);
-  const ShellOperator shell_operator(discretization,
-                                     section,
-                                     conditions,
-                                     loads,
-                                     membrane_strain,
-                                     eta);
-  const auto         &constraints = discretization.hanging_node_constraints();
-  const auto          values =
+  const ShellOperator shell_operator(
+    discretization,
+    ShellParts(section, conditions, loads, membrane_strain, eta));
+  const auto &constraints = discretization.hanging_node_constraints();
+  const auto  values =
     eigenvalues(dense_system(discretization, shell_operator, constraints).first,
                 constraints);
   return values[0] / values[values.size() - 1];

@@ -62,12 +62,9 @@ compare(const std::string    &name,
         const ShellModel     &shell,
         const MembraneStrain  strain)
 {
-  const ShellOperator     fast(discretization,
-                           shell.section,
-                           shell.supports,
-                           shell.loads,
-                           strain,
-                           {});
+  const ShellOperator fast(
+    discretization,
+    ShellParts(shell.section, shell.supports, shell.loads, strain, {}));
   const ReferenceAssembly reference(discretization,
                                     shell.section,
                                     shell.supports,

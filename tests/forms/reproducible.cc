@@ -118,12 +118,12 @@ main(int argc, char *argv[])
         mesh.refined.clear();
       const auto discretization = make_discretization(mesh, elements[e]);
       const ShellOperator shell_operator(*discretization,
-                                         parameters.section,
-                                         parameters.conditions,
-                                         parameters.loads,
-                                         default_membrane_strain(
-                                           elements[e].type),
-                                         6. * elements[e].degree);
+                                         ShellParts(parameters.section,
+                                                    parameters.conditions,
+                                                    parameters.loads,
+                                                    default_membrane_strain(
+                                                      elements[e].type),
+                                                    6. * elements[e].degree));
       TrilinosVector      u(discretization->locally_owned_dofs(),
                        discretization->locally_relevant_dofs(),
                        MPI_COMM_WORLD);

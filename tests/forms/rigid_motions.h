@@ -85,11 +85,11 @@ test_rigid_motion(
                                 MembraneStrain::reduced})
         {
           const ShellOperator shell_operator(*discretization,
-                                             parameters.section,
-                                             parameters.conditions,
-                                             parameters.loads,
-                                             options_of(strain),
-                                             10.);
+                                             ShellParts(parameters.section,
+                                                        parameters.conditions,
+                                                        parameters.loads,
+                                                        options_of(strain),
+                                                        10.));
           check_below("rigid motion, p = " + std::to_string(degree) + ", " +
                         name_of(strain),
                       relative_force(*discretization, shell_operator, motion),

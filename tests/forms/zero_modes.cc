@@ -43,11 +43,11 @@ test_mesh(const std::string    &name,
 {
   const auto          discretization = make_discretization(mesh, element);
   const ShellOperator shell_operator(*discretization,
-                                     parameters.section,
-                                     parameters.conditions,
-                                     parameters.loads,
-                                     membrane_strain,
-                                     {});
+                                     ShellParts(parameters.section,
+                                                parameters.conditions,
+                                                parameters.loads,
+                                                membrane_strain,
+                                                {}));
   const auto          where =
     name + ", " + label(element) + ", " + name_of(membrane_strain);
 

@@ -24,11 +24,12 @@ struct Shell
     : parameters(coupled_stack)
     , discretization(make_discretization(mesh, element))
     , shell_operator(*discretization,
-                     parameters.section,
-                     parameters.conditions,
-                     parameters.loads,
-                     options(default_membrane_strain(element.type), model),
-                     7.)
+                     ShellParts(parameters.section,
+                                parameters.conditions,
+                                parameters.loads,
+                                options(default_membrane_strain(element.type),
+                                        model),
+                                7.))
   {
     none.close();
   }

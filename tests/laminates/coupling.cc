@@ -24,11 +24,7 @@ matrix_of(const Discretization        &discretization,
           const std::optional<double> &eta = {})
 {
   const ShellOperator       fast(discretization,
-                           section,
-                           conditions,
-                           loads,
-                           strain,
-                           eta);
+                           ShellParts(section, conditions, loads, strain, eta));
   AffineConstraints<double> none;
   none.close();
   return dense_system(discretization, fast, none).first;
@@ -41,13 +37,10 @@ test_assembly(const std::string        &name,
               const Element            &element,
               const MembraneStrain      strain)
 {
-  const auto                discretization = make_discretization(mesh, element);
-  const ShellOperator       fast(*discretization,
-                           p.section,
-                           p.conditions,
-                           p.loads,
-                           strain,
-                           {});
+  const auto          discretization = make_discretization(mesh, element);
+  const ShellOperator fast(
+    *discretization,
+    ShellParts(p.section, p.conditions, p.loads, strain, {}));
   const ReferenceAssembly   reference(*discretization,
                                     p.section,
                                     p.conditions,
@@ -121,11 +114,12 @@ test_orientation()
   const auto energy_on = [&](const Mesh &mesh, const Element &element) {
     const auto          discretization = make_discretization(mesh, element);
     const ShellOperator shell_operator(*discretization,
-                                       p.section,
-                                       p.conditions,
-                                       p.loads,
-                                       default_membrane_strain(element.type),
-                                       {});
+                                       ShellParts(p.section,
+                                                  p.conditions,
+                                                  p.loads,
+                                                  default_membrane_strain(
+                                                    element.type),
+                                                  {}));
     return shell_operator.energies(interpolate(*discretization, some_field))
       .total();
   };
@@ -211,13 +205,10 @@ test_definite()
                   values[6] / largest,
                   1e-9);
       // At the bound itself nothing is negative yet.
-      const ShellOperator shell_operator(*discretization,
-                                         p.section,
-                                         p.conditions,
-                                         p.loads,
-                                         MembraneStrain::tied,
-                                         {});
-      const auto          at_bound =
+      const ShellOperator shell_operator(
+        *discretization,
+        ShellParts(p.section, p.conditions, p.loads, MembraneStrain::tied, {}));
+      const auto at_bound =
         eigenvalues(matrix_of(*discretization,
                               p.section,
                               p.conditions,

@@ -30,11 +30,11 @@ namespace
         }
     const auto          discretization = make_discretization(mesh, degree);
     const ShellOperator shell_operator(*discretization,
-                                       parameters.section,
-                                       parameters.conditions,
-                                       parameters.loads,
-                                       MembraneStrain::tied,
-                                       {});
+                                       ShellParts(parameters.section,
+                                                  parameters.conditions,
+                                                  parameters.loads,
+                                                  MembraneStrain::tied,
+                                                  {}));
     TrilinosWrappers::SparseMatrix matrix;
     shell_operator.reinit_matrix(discretization->hanging_node_constraints(),
                                  matrix);

@@ -33,11 +33,11 @@ namespace
           }
       shell = Tests::make_discretization(mesh, degree);
       const ShellOperator shell_operator(*shell,
-                                         parameters.section,
-                                         parameters.conditions,
-                                         parameters.loads,
-                                         KinematicsOptions(),
-                                         {});
+                                         ShellParts(parameters.section,
+                                                    parameters.conditions,
+                                                    parameters.loads,
+                                                    KinematicsOptions(),
+                                                    {}));
       DoFTools::make_zero_boundary_constraints(shell->dof_handler(),
                                                constraints);
       constraints.close();

@@ -4,85 +4,92 @@
 #ifndef nacre_forms_load_terms_h
 #define nacre_forms_load_terms_h
 
-#include <nacre/base/instant.h>
-#include <nacre/forms/kinematics.h>
-
-#include <deal.II/lac/trilinos_vector.h>
-
-#include <vector>
+#include <nacre/forms/term.h>
 
 namespace Nacre
 {
   class Loads;
 
-  /** The virtual work l(v) of the loads (N.19), cell by cell. */
-  class LoadTerms
+  /** The virtual work -l(v) of a load, (N.19); the loads must live as long. */
+  class LoadTerm : public Term
+  {
+  public:
+    explicit LoadTerm(const Loads &loads)
+      : loads_(loads)
+    {}
+
+    bool
+    is_load() const override
+    {
+      return true;
+    }
+
+  protected:
+    const Loads &loads_;
+  };
+
+  /** Dead forces per area: force, weight and a pressure that doesn't follow. */
+  class SurfaceLoadTerm : public LoadTerm
+  {
+  public:
+    SurfaceLoadTerm(const SectionLaw &section, const Loads &loads);
+
+    void
+    add_on_cell(TermCell &cell, LocalTerms &terms) const override;
+
+  private:
+    const SectionLaw &section_;
+  };
+
+  /**
+   * Pressure along the deformed normal on the deformed area: the force per
+   * reference area is p phi,1 x phi,2; with its derivative. In a step with
+   * energy-momentum forces it is the mean over the straight way of the step:
+   * its work is the pressure times the volume that the surface sweeps.
+   */
+  class FollowingPressureTerm : public LoadTerm
+  {
+  public:
+    using LoadTerm::LoadTerm;
+
+    void
+    add_on_cell(TermCell &cell, LocalTerms &terms) const override;
+  };
+
+  /** Forces and moments per length of boundary edges. */
+  class EdgeLoadTerm : public LoadTerm
+  {
+  public:
+    using LoadTerm::LoadTerm;
+
+    bool
+    acts_on_boundary(const types::boundary_id                     id,
+                     const std::pair<unsigned int, unsigned int> &place,
+                     const ShellActions &actions) const override;
+
+    void
+    add_on_boundary(const TermEdge &edge, LocalTerms &terms) const override;
+  };
+
+  /** Forces at points. */
+  class PointForceTerm : public LoadTerm
   {
   public:
     /**
      * Throws if a point force lies off the mesh or on both lips of a slit;
      * collective.
      */
-    LoadTerms(const Discretization &discretization,
-              const SectionLaw     &section,
-              const Loads          &loads);
+    PointForceTerm(const Discretization &discretization, const Loads &loads);
 
-    /** Whether a load acts on the boundary edges @p id. */
-    bool
-    act_on(const types::boundary_id id) const;
-
-    /**
-     * Subtract force per area, weight and pressure at the displacement @p u of
-     * the cell's dofs from the residual.
-     * @param u_start the start of a step of which u is the mean, or empty
-     */
     void
-    subtract_on_cell(const ShellCellValues        &values,
-                     const dealii::Vector<double> &u,
-                     const dealii::Vector<double> &u_start,
-                     const Instant                &instant,
-                     LocalTerms                   &terms) const;
-
-    /** Subtract forces and moments per length of a boundary edge. */
-    void
-    subtract_on_edge(const types::boundary_id      id,
-                     const ShellEdgeValues        &edge,
-                     const dealii::Vector<double> &u,
-                     const Instant                &instant,
-                     Kinematics                   &kinematics,
-                     LocalTerms                   &terms) const;
-
-    /** Add the virtual work of point forces times @p factor. */
-    void
-    add_point_forces(const AffineConstraints<double> &constraints,
-                     const double                     factor,
-                     const Instant                   &instant,
-                     TrilinosWrappers::MPI::Vector   &vector) const;
+    add_point_forces(
+      const AffineConstraints<double> &constraints,
+      const ShellActions              &actions,
+      TrilinosWrappers::MPI::Vector   &right_hand_side) const override;
 
   private:
-    void
-    subtract_surface_loads(const ShellCellValues  &values,
-                           const Instant          &instant,
-                           dealii::Vector<double> &residual) const;
-
-    /**
-     * Pressure along the deformed normal on the deformed area: the force per
-     * reference area is p phi,1 x phi,2; with its derivative. If @p u_start
-     * isn't empty, the mean over the straight way of a step from there, of
-     * which @p u is the mean: its work is the pressure times the volume that
-     * the surface sweeps.
-     */
-    void
-    subtract_following_pressure(const ShellCellValues        &values,
-                                const dealii::Vector<double> &u,
-                                const dealii::Vector<double> &u_start,
-                                const Instant                &instant,
-                                LocalTerms                   &terms) const;
-
     const Discretization     &discretization_;
-    const SectionLaw         &section_;
-    const Loads              &loads_;
-    std::vector<SurfacePoint> force_points_;
+    std::vector<SurfacePoint> places_;
   };
 } // namespace Nacre
 

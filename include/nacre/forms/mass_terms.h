@@ -4,8 +4,7 @@
 #ifndef nacre_forms_mass_terms_h
 #define nacre_forms_mass_terms_h
 
-#include <nacre/discretization/discretization.h>
-#include <nacre/mechanics/section_law.h>
+#include <nacre/forms/term.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -39,6 +38,18 @@ namespace Nacre
     {
       return cell_matrices_[cell->active_cell_index()];
     }
+
+    /**
+     * Add M w of the ghosted vector @p w on a cell with the dofs @p dofs to
+     * @p residual and, if it isn't null, @p factor M to @p tangent.
+     */
+    void
+    add_on_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                const std::vector<types::global_dof_index>        &dofs,
+                const Vector                                      &w,
+                const double                                       factor,
+                dealii::Vector<double>                            &residual,
+                FullMatrix<double> *tangent) const;
 
     /** M v of a ghosted vector, without constraints. */
     void
@@ -83,26 +94,29 @@ namespace Nacre
    * derivative of w with respect to the displacement at which the internal
    * forces are taken.
    */
-  struct Inertia
+  class Inertia : public Term
   {
-    const MassTerms &mass;
-    /** Ghosted: acceleration plus mass damping times velocity. */
-    const TrilinosWrappers::MPI::Vector &w;
-    /** dw/du (1/time^2). */
-    double factor;
+  public:
     /**
-     * If given, the displacement is the mean of a step that begins there, and
-     * the internal forces are the energy-momentum ones of the step.
+     * @param w ghosted: acceleration plus mass damping times velocity
+     * @param factor dw/du (1/time^2)
+     * @param start if given, the displacement is the mean of a step that begins
+     *   there, and the internal forces are the energy-momentum ones of the step
      */
-    const StepStart *start = nullptr;
+    Inertia(const MassTerms                     &mass,
+            const TrilinosWrappers::MPI::Vector &w,
+            const double                         factor,
+            const StepStart                     *start = nullptr);
 
-    /** Add M w to the residual and, if it has rows, factor M to the tangent. */
     void
-    add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-        const std::vector<types::global_dof_index>            &dofs,
-        const std::vector<unsigned int>                       &node_dofs,
-        dealii::Vector<double>                                &residual,
-        FullMatrix<double>                                    *tangent) const;
+    add_on_cell(TermCell &cell, LocalTerms &terms) const override;
+
+    const StepStart *start;
+
+  private:
+    const MassTerms                     &mass_;
+    const TrilinosWrappers::MPI::Vector &w_;
+    const double                         factor_;
   };
 } // namespace Nacre
 

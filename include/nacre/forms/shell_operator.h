@@ -4,33 +4,25 @@
 #ifndef nacre_forms_shell_operator_h
 #define nacre_forms_shell_operator_h
 
-#include <nacre/forms/edge_penalty.h>
-#include <nacre/forms/kinematics.h>
-#include <nacre/forms/load_terms.h>
 #include <nacre/forms/mass_terms.h>
-#include <nacre/forms/shell_actions.h>
-#include <nacre/forms/step_start.h>
+#include <nacre/forms/rotation_conditions.h>
+#include <nacre/forms/shell_terms.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
-#include <optional>
+#include <memory>
+#include <vector>
 
 namespace Nacre
 {
-  class BoundaryConditions;
-  class Expression;
-  class Loads;
-  struct EdgeConditions;
-  struct ShellModel;
-
   /**
-   * The discrete shell: the one loop over cells, interior edges and boundary
-   * edges that assembles the tangent, the residual and the energies of any
-   * Kinematics and the virtual work of the loads. It holds no time: functions
-   * that loads or prescribed rotations matter to take ShellActions, or take
-   * both at t = 0 with the factor 1, as linear analyses do.
+   * The discrete shell: a sum of terms, and the one loop over cells, interior
+   * edges and boundary edges that assembles their tangent, residual and
+   * energies. It holds no time: functions that loads or prescribed rotations
+   * matter to take ShellActions, or take both at t = 0 with the factor 1, as
+   * linear analyses do.
    */
   class ShellOperator
   {
@@ -38,35 +30,31 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** Both must live as long. Throws as LoadTerms does; collective. */
-    ShellOperator(const Discretization &discretization,
-                  const ShellModel     &model);
-
     /**
-     * The same of the parts of a model that it needs, for a mesh that is no
-     * Midsurface's.
-     * @param load_factor of prescribed displacements over the time, by which
-     *   they turn edges; null: they don't
+     * The discretisation and what @p parts refer to must live as long. Throws
+     * as make_terms() does; collective.
      */
-    ShellOperator(const Discretization        &discretization,
-                  const SectionLaw            &section,
-                  const BoundaryConditions    &boundary_conditions,
-                  const Loads                 &loads,
-                  const KinematicsOptions     &kinematics_options,
-                  const std::optional<double> &eta,
-                  const Expression            *load_factor = nullptr);
+    ShellOperator(const Discretization &discretization,
+                  const ShellParts     &parts,
+                  const TermSelection   selection = TermSelection::all);
 
     /** The loads and the prescribed rotations at @p instant; collective. */
     ShellActions
     actions(const Instant &instant) const
     {
-      return {instant, prescribed_rotations(instant)};
+      return {instant, rotation_conditions_.evaluate(instant)};
     }
 
     const EdgePenalty &
     penalty() const
     {
       return penalty_;
+    }
+
+    const RotationConditions &
+    rotation_conditions() const
+    {
+      return rotation_conditions_;
     }
 
     /** Set up the pattern of @p matrix, neighbours of cells included. */
@@ -140,69 +128,16 @@ namespace Nacre
     /**
      * The nodes' forces (force) of all loads at the ghosted displacement @p u
      * and at @p instant; collective.
-     * @param u_start ghosted start of a step of which u is the mean, or null
+     * @param start of a step of which u is the mean, or null
      */
     void
-    loads(const Vector  &u,
-          const Vector  *u_start,
-          Vector        &result,
-          const Instant &instant = Instant()) const;
-
-    /**
-     * The prescribed rotations of this rank's edges at @p instant. Throws where
-     * an expression isn't finite, on all ranks; collective.
-     */
-    PrescribedRotations
-    prescribed_rotations(const Instant &instant) const;
-
-    /**
-     * Work (force times length) of the supports that prescribe rotations, from
-     * @p start to the ghosted @p u_end with the rotations @p end; collective.
-     */
-    double
-    rotation_work(const StepStart           &start,
-                  const Vector              &u_end,
-                  const PrescribedRotations &end) const;
-
-    /**
-     * The virtual work of the rotation conditions of the edge @p id on a
-     * rigid rotation about the three axes: the part of the reaction moment
-     * that the nodes' forces don't carry (force times length). The rotation is
-     * that of the undeformed surface in linear kinematics, else of the
-     * deformed one.
-     */
-    Tensor<1, spacedim>
-    rotation_reaction(const types::boundary_id   id,
-                      const Vector              &u,
-                      const PrescribedRotations &rotations) const;
-
-    /**
-     * Whether all neighbouring cells are oriented alike, which a pressure
-     * needs; collective.
-     */
-    bool
-    is_consistently_oriented() const;
-
-    /** Where, and by how much, a deformed edge departs from its rotation. */
-    struct RotationGap
-    {
-      /** Between the normals, 0 to pi (rad). */
-      double angle = 0.;
-      /** On the undeformed surface (length). */
-      Point<spacedim> position;
-    };
-
-    /**
-     * The largest angle between the normal of the deformed edge and that of its
-     * prescribed rotation, one of @p rotations, at the ghosted displacement
-     * @p u; collective, the same on all ranks.
-     */
-    RotationGap
-    largest_rotation_gap(const Vector              &u,
-                         const PrescribedRotations &rotations) const;
+    loads(const Vector    &u,
+          Vector          &result,
+          const Instant   &instant = Instant(),
+          const StepStart *start   = nullptr) const;
 
   private:
-    struct ScratchData;
+    class Worker;
     struct FaceCopy;
     struct CopyData;
 
@@ -216,14 +151,9 @@ namespace Nacre
       const Vector       *u;
       const ShellActions &actions;
       /** Null: none. */
-      const Inertia *inertia;
-
+      const Inertia *inertia = nullptr;
       /** Of a step with energy-momentum forces, or null. */
-      const StepStart *
-      start() const
-      {
-        return inertia != nullptr ? inertia->start : nullptr;
-      }
+      const StepStart *start = nullptr;
     };
 
     /** assemble() at @p state; the energy of this rank's cells. */
@@ -233,44 +163,33 @@ namespace Nacre
                 Matrix                          &matrix,
                 Vector                          &right_hand_side) const;
 
+    using TermPointers = std::vector<const Term *>;
+
+    /** The sum of the residuals of @p terms; this rank's energy. */
+    Energies
+    sum_residuals(const TermPointers &terms,
+                  const State        &state,
+                  Vector             &result) const;
+
+    /** All terms, inertia included. */
+    TermPointers
+    terms_at(const State &state) const;
+
     /** The loop. */
     void
-    loop(const State  &state,
-         const bool    wants_tangent,
-         const Copier &copier) const;
+    loop(const TermPointers &terms,
+         const State        &state,
+         const bool          wants_tangent,
+         const Copier       &copier) const;
 
-    void
-    cell_worker(const Cell  &cell,
-                const State &state,
-                ScratchData &scratch,
-                CopyData    &copy) const;
-
-    void
-    boundary_worker(const Cell        &cell,
-                    const unsigned int face,
-                    const State       &state,
-                    ScratchData       &scratch,
-                    CopyData          &copy) const;
-
-    /** Call @p work(cell, face, conditions) where a rotation is prescribed. */
-    void
-    for_each_rotation(
-      const std::function<
-        void(const Cell &, const unsigned int, const EdgeConditions &)> &work)
-      const;
-
-    const Discretization       &discretization_;
-    const SectionLaw           &section_;
-    const BoundaryConditions   &boundary_conditions_;
-    const Loads                &loads_;
-    LoadTerms                   load_terms_;
-    EdgePenalty                 penalty_;
-    std::unique_ptr<Kinematics> kinematics_;
+    const Discretization &discretization_;
+    EdgePenalty           penalty_;
+    /** Each loop has a copy. */
+    const std::unique_ptr<const Kinematics> kinematics_;
+    const RotationConditions                rotation_conditions_;
+    const Terms                             terms_;
     /** Whether to assemble the symmetric part of the tangent. */
     const bool symmetrizes_;
-    /** Whether moments take the deformed positions. */
-    const bool        has_deformed_levers_;
-    const Expression *load_factor_;
   };
 } // namespace Nacre
 
