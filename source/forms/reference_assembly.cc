@@ -168,19 +168,12 @@ namespace Nacre
   } // namespace
 
 
-  ReferenceAssembly::ReferenceAssembly(
-    const Discretization     &discretization,
-    const SectionLaw         &section,
-    const BoundaryConditions &boundary_conditions,
-    const Loads              &loads,
-    const EdgePenalty        &penalty,
-    const MembraneStrain      membrane_strain)
+  ReferenceAssembly::ReferenceAssembly(const Discretization &discretization,
+                                       const ShellParts     &parts,
+                                       const EdgePenalty    &penalty)
     : discretization_(discretization)
-    , section_(section)
-    , boundary_conditions_(boundary_conditions)
-    , loads_(loads)
+    , parts_(parts)
     , penalty_(penalty)
-    , membrane_strain_(membrane_strain)
   {}
 
 
@@ -215,7 +208,8 @@ namespace Nacre
     cell->get_dof_indices(dofs);
     auto &part = copy.add_part(dofs);
 
-    const double share = scratch.blends ? full_share(fe_values, section_) : 1.;
+    const double share =
+      scratch.blends ? full_share(fe_values, parts_.section) : 1.;
     const auto samples = sample_membrane_strain(scratch.tying, scratch.samples);
     std::vector<Voigt<>> rho(dofs.size());
     for (const unsigned int q : fe_values.quadrature_point_indices())
@@ -223,7 +217,7 @@ namespace Nacre
         const auto   frame = frame_at(fe_values, q);
         const auto   x     = section_point(fe_values, q);
         const double dA    = fe_values.JxW(q);
-        const auto   H     = section_.stiffness(frame, x); // (8)-(10)
+        const auto   H     = parts_.section.stiffness(frame, x); // (8)-(10)
 
         // (N.10): eps(v):H_n:eps(u) + rho(v):H_m:rho(u)
         const auto eps = tied_membrane_strain(scratch.tying, samples, q);
@@ -232,12 +226,13 @@ namespace Nacre
         add_energy(eps, H.membrane, share * dA, part.matrix);
         add_energy(rho, H.bending, dA, part.matrix);
         // Coupling: eps(v):B:rho(u) + rho(v):B^T:eps(u)
-        if (section_.is_coupled())
+        if (parts_.section.is_coupled())
           add_coupling(eps, H.coupling, rho, share * dA, part.matrix);
 
         // f . v
-        const double area_density = section_.density(x) * section_.thickness(x);
-        const auto   f = loads_.force_per_area(x, frame.t0, area_density);
+        const double area_density =
+          parts_.section.density(x) * parts_.section.thickness(x);
+        const auto f = parts_.loads.force_per_area(x, frame.t0, area_density);
         for (const unsigned int i : fe_values.dof_indices())
           part.vector(i) += f * fe_values[displacement].value(i, q) * dA;
       }
@@ -245,12 +240,12 @@ namespace Nacre
       return;
     scratch.reduced.reinit(cell);
     std::vector<Voigt<>> eps(dofs.size());
-    const bool           is_coupled = section_.is_coupled();
+    const bool           is_coupled = parts_.section.is_coupled();
     for (const unsigned int q : scratch.reduced.quadrature_point_indices())
       {
         const auto frame = frame_at(scratch.reduced, q);
         const auto H =
-          section_.stiffness(frame, section_point(scratch.reduced, q));
+          parts_.section.stiffness(frame, section_point(scratch.reduced, q));
         const double dA = (1. - share) * scratch.reduced.JxW(q);
         for (unsigned int i = 0; i < eps.size(); ++i)
           {
@@ -332,13 +327,13 @@ namespace Nacre
     const double         eta   = penalty_.interior(cell, neighbor);
     const auto           n     = edge.n_current_interface_dofs();
     const TiedEdgeStrain tied_minus(discretization_,
-                                    section_,
+                                    parts_.section,
                                     scratch.edge_samples,
                                     cell,
                                     face,
                                     subface);
     const TiedEdgeStrain tied_plus(discretization_,
-                                   section_,
+                                   parts_.section,
                                    scratch.edge_samples,
                                    neighbor,
                                    neighbor_face,
@@ -351,12 +346,12 @@ namespace Nacre
         const EdgeSide side_minus(minus,
                                   q,
                                   minus.normal_vector(q),
-                                  section_,
+                                  parts_.section,
                                   tied_minus);
         const EdgeSide side_plus(plus,
                                  q,
                                  -plus.normal_vector(q),
-                                 section_,
+                                 parts_.section,
                                  tied_plus);
         // A neighbour of the opposite orientation enters with the other sign.
         const double sigma =
@@ -394,18 +389,18 @@ namespace Nacre
                                        CopyData          &copy) const
   {
     const auto id     = cell->face(face)->boundary_id();
-    const auto edge   = boundary_conditions_.edges().find(id);
-    const auto force  = loads_.edge_forces().find(id);
-    const auto moment = loads_.edge_moments().find(id);
+    const auto edge   = parts_.supports.edges().find(id);
+    const auto force  = parts_.loads.edge_forces().find(id);
+    const auto moment = parts_.loads.edge_moments().find(id);
     const bool rotates =
-      edge != boundary_conditions_.edges().end() && edge->second.rotation;
+      edge != parts_.supports.edges().end() && edge->second.rotation;
 
     scratch.edge.reinit(cell, face);
     const auto  &fe_values = scratch.edge.get_fe_face_values(0);
     auto        &part = copy.add_part(scratch.edge.get_interface_dof_indices());
     const double eta  = penalty_.boundary(cell);
     const TiedEdgeStrain tied(discretization_,
-                              section_,
+                              parts_.section,
                               scratch.edge_samples,
                               cell,
                               face,
@@ -417,14 +412,14 @@ namespace Nacre
         const EdgeSide side(fe_values,
                             q,
                             fe_values.normal_vector(q),
-                            section_,
+                            parts_.section,
                             tied);
         for (const unsigned int i : fe_values.dof_indices())
           {
-            if (force != loads_.edge_forces().end())
+            if (force != parts_.loads.edge_forces().end())
               part.vector(i) +=
                 force->second(x) * fe_values[displacement].value(i, q) * ds;
-            if (moment != loads_.edge_moments().end())
+            if (moment != parts_.loads.edge_moments().end())
               part.vector(i) -= moment->second(x) * side.theta[i] * ds;
             if (!rotates)
               continue;
@@ -445,7 +440,7 @@ namespace Nacre
     const AffineConstraints<double> &constraints,
     Vector                          &right_hand_side) const
   {
-    for (const auto &point_force : loads_.point_forces())
+    for (const auto &point_force : parts_.loads.point_forces())
       {
         const auto place =
           discretization_.locate(point_force.position, point_force.source);
@@ -518,7 +513,8 @@ namespace Nacre
                             discretization_.dof_handler().end(),
                             cell_worker,
                             copier,
-                            ScratchData(discretization_, membrane_strain_),
+                            ScratchData(discretization_,
+                                        parts_.kinematics.membrane_strain),
                             CopyData(),
                             MeshWorker::assemble_own_cells |
                               MeshWorker::assemble_own_interior_faces_once |

@@ -220,7 +220,7 @@ namespace Nacre
       write_file(base_name_ + ".checkpoint", [&](std::ostream &out) {
         out << slot_ << ' ' << data.state.step << ' ' << n_ranks_ << '\n';
       });
-      // What more ranks of an earlier run have left in this slot.
+      // Files of an earlier run on more ranks may still be in this slot.
       remove_slot(slot_, n_ranks_);
     });
   }

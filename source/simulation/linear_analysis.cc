@@ -58,11 +58,8 @@ namespace Nacre
       assemble(shell_.shell_operator());
     else
       assemble(ReferenceAssembly(shell_.discretization(),
-                                 model.section,
-                                 model.supports,
-                                 model.loads,
-                                 shell_.shell_operator().penalty(),
-                                 model.kinematics.membrane_strain));
+                                 model,
+                                 shell_.shell_operator().penalty()));
 
     ChosenSolver &solver = shell_.solver();
     solver.prepare({matrix_, constraints});

@@ -62,15 +62,9 @@ compare(const std::string    &name,
         const ShellModel     &shell,
         const MembraneStrain  strain)
 {
-  const ShellOperator fast(
-    discretization,
-    ShellParts(shell.section, shell.supports, shell.loads, strain, {}));
-  const ReferenceAssembly reference(discretization,
-                                    shell.section,
-                                    shell.supports,
-                                    shell.loads,
-                                    fast.penalty(),
-                                    strain);
+  const ShellParts    parts(shell.section, shell.supports, shell.loads, strain);
+  const ShellOperator fast(discretization, parts);
+  const ReferenceAssembly reference(discretization, parts, fast.penalty());
   // Without constraints: the diagonal of constrained dofs is arbitrary.
   AffineConstraints<double> none(discretization.locally_relevant_dofs());
   none.close();

@@ -37,16 +37,10 @@ test_assembly(const std::string        &name,
               const Element            &element,
               const MembraneStrain      strain)
 {
-  const auto          discretization = make_discretization(mesh, element);
-  const ShellOperator fast(
-    *discretization,
-    ShellParts(p.section, p.conditions, p.loads, strain, {}));
-  const ReferenceAssembly   reference(*discretization,
-                                    p.section,
-                                    p.conditions,
-                                    p.loads,
-                                    fast.penalty(),
-                                    strain);
+  const auto                discretization = make_discretization(mesh, element);
+  const ShellParts          parts(p.section, p.conditions, p.loads, strain);
+  const ShellOperator       fast(*discretization, parts);
+  const ReferenceAssembly   reference(*discretization, parts, fast.penalty());
   AffineConstraints<double> none;
   none.close();
   const auto K = dense_system(*discretization, fast, none).first;

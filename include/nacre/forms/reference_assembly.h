@@ -5,7 +5,7 @@
 #define nacre_forms_reference_assembly_h
 
 #include <nacre/forms/edge_penalty.h>
-#include <nacre/problem/kinematics_options.h>
+#include <nacre/forms/shell_terms.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -13,9 +13,6 @@
 
 namespace Nacre
 {
-  class BoundaryConditions;
-  class Loads;
-
   /**
    * The linear form as a textbook writes it, with nothing but deal.II's own
    * tools: FEValues on the cells, FEInterfaceValues on the edges, a loop by
@@ -43,15 +40,13 @@ namespace Nacre
     using Matrix = TrilinosWrappers::SparseMatrix;
 
     /**
-     * All arguments must live as long.
+     * The discretisation, the penalty and what @p parts refer to must live as
+     * long.
      * @param penalty eta^e of the edges
      */
-    ReferenceAssembly(const Discretization     &discretization,
-                      const SectionLaw         &section,
-                      const BoundaryConditions &boundary_conditions,
-                      const Loads              &loads,
-                      const EdgePenalty        &penalty,
-                      const MembraneStrain      membrane_strain);
+    ReferenceAssembly(const Discretization &discretization,
+                      const ShellParts     &parts,
+                      const EdgePenalty    &penalty);
 
     /** Set up the sparsity pattern of @p matrix. */
     void
@@ -96,12 +91,9 @@ namespace Nacre
     add_point_forces(const AffineConstraints<double> &constraints,
                      Vector                          &right_hand_side) const;
 
-    const Discretization     &discretization_;
-    const SectionLaw         &section_;
-    const BoundaryConditions &boundary_conditions_;
-    const Loads              &loads_;
-    const EdgePenalty        &penalty_;
-    const MembraneStrain      membrane_strain_;
+    const Discretization &discretization_;
+    const ShellParts      parts_;
+    const EdgePenalty    &penalty_;
   };
 } // namespace Nacre
 
