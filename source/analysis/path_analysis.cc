@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/analysis/arc_length_step.h>
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/analysis/dynamic_step.h>
 #include <nacre/analysis/path_analysis.h>
@@ -9,6 +10,7 @@
 #include <nacre/base/mpi_errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -63,12 +65,15 @@ namespace Nacre
   }
 
   std::string
-  PathAnalysis::run(PathState       &state,
-                    const Observer  &observer,
-                    const Messenger &messenger)
+  PathAnalysis::run(PathState           &state,
+                    const Observer      &observer,
+                    const PointObserver &point_observer,
+                    const Messenger     &messenger)
   {
     if (state.step == 0)
       observer(state);
+    if (parameters_.type == AnalysisType::arc_length)
+      return follow_arc(state, observer, point_observer, messenger);
     const TimeGrid grid = parameters_.time_grid();
     while (!grid.is_end(state.time))
       {
@@ -101,18 +106,165 @@ namespace Nacre
         const std::string gain = find_energy_gain(attempt.balance);
         if (!gain.empty())
           return text.str() + gain;
-        ++state.step;
-        state.time              = end;
-        state.motion            = std::move(attempt.motion);
-        state.balance           = attempt.balance;
-        state.load_factor       = system_.load_factor();
-        state.iterations        = attempt.result.iterations;
-        state.residual          = attempt.result.last.residual;
-        state.n_negative_pivots = attempt.result.last.n_negative_pivots;
-        adapt_step(state, attempt);
+        accept(state, std::move(attempt), end);
         observer(state);
       }
     return "";
+  }
+
+  void
+  PathAnalysis::accept(PathState   &state,
+                       Attempt    &&attempt,
+                       const double end) const
+  {
+    ++state.step;
+    state.time              = end;
+    state.balance           = attempt.balance;
+    state.load_factor       = system_.load_factor();
+    state.iterations        = attempt.result.iterations;
+    state.residual          = attempt.result.last.residual;
+    state.n_negative_pivots = attempt.result.last.n_negative_pivots;
+    adapt_step(state, attempt);
+    state.motion = std::move(attempt.motion);
+  }
+
+  std::string
+  PathAnalysis::follow_arc(PathState           &state,
+                           const Observer      &observer,
+                           const PointObserver &point_observer,
+                           const Messenger     &messenger)
+  {
+    const TimeGrid grid = parameters_.time_grid();
+    while (!grid.is_end(state.time) && state.step < parameters_.maximum_steps)
+      {
+        double  end     = state.time;
+        Attempt attempt = arc_step(state, end);
+        if (attempt.result.converged && end > parameters_.end_time)
+          {
+            end     = parameters_.end_time;
+            attempt = last_arc_step(state, attempt, end);
+          }
+        if (attempt.result.converged)
+          {
+            const PathState before(state);
+            accept(state, std::move(attempt), end);
+            // The undeformed shell's stability isn't known.
+            if (before.step > 0 &&
+                before.n_negative_pivots != state.n_negative_pivots)
+              point_observer(find_point(before, state));
+            system_.set_time(state.time);
+            observer(state);
+            continue;
+          }
+        std::ostringstream text;
+        text << "step " << state.step + 1 << " from t = " << state.time << ": "
+             << attempt.result.reason;
+        state.next_step *= 0.5;
+        state.n_good_steps = 0;
+        if (state.next_step < parameters_.minimum_time_step)
+          return text.str() + ". The last good state is kept. " +
+                 remedy(attempt.result.kind, parameters_);
+        messenger(text.str() + "; trying half the step");
+      }
+    return "";
+  }
+
+  PathPoint
+  PathAnalysis::find_point(const PathState &before, const PathState &after)
+  {
+    PathPoint point;
+    point.n_before = before.n_negative_pivots;
+    point.n_after  = after.n_negative_pivots;
+    point.state    = after;
+    PathState trial(before);
+    // In units of the step's length; the length of the last step of a path is
+    // that to the End time.
+    double    low = 0., high = before.next_step, low_time = before.time;
+    const int n_halvings = 40;
+    for (int k = 0; k < n_halvings; ++k)
+      {
+        trial.next_step = 0.5 * (low + high);
+        double  end     = before.time;
+        Attempt attempt = arc_step(trial, end);
+        if (!attempt.result.converged)
+          break;
+        const unsigned int n = attempt.result.last.n_negative_pivots;
+        if (n == point.n_before)
+          {
+            low      = trial.next_step;
+            low_time = end;
+          }
+        else
+          {
+            high                    = trial.next_step;
+            point.n_after           = n;
+            point.state.motion      = std::move(attempt.motion);
+            point.state.time        = end;
+            point.state.load_factor = system_.load_factor();
+          }
+        if (std::abs(point.state.time - low_time) <=
+              1e-6 * std::abs(low_time) &&
+            high - low <= 1e-4 * before.next_step)
+          break;
+      }
+    const bool         is_limit  = rises(before) != rises(point.state);
+    const unsigned int n_changes = std::max(point.n_before, point.n_after) -
+                                   std::min(point.n_before, point.n_after);
+    point.kind = !is_limit      ? "bifurcation" :
+                 n_changes == 1 ? "limit" :
+                                  "limit and bifurcation";
+    return point;
+  }
+
+  bool
+  PathAnalysis::rises(const PathState &state)
+  {
+    system_.set_time(state.time);
+    Vector     du   = system_.owned_vector();
+    const auto step = system_.solve_linearised(state.motion.u, du);
+    return step.failure.kind != FailureKind::none ||
+           system_.rate(state.motion.u, state.time).velocity * state.motion.v >
+             0.;
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::arc_step(const PathState &state, double &end)
+  {
+    const Vector &tangent    = state.motion.v;
+    const double  speed      = tangent.l2_norm();
+    auto          parameters = parameters_.newton;
+    parameters.max_increment = 100. * system_.size();
+    ArcLengthStep step(system_,
+                       state.motion.u,
+                       state.time,
+                       tangent,
+                       speed > 0. ? state.next_step * speed : state.next_step);
+    Attempt       attempt{step.solve(parameters), state.motion};
+    if (!attempt.result.converged)
+      return attempt;
+    attempt.motion.u = step.displacement();
+    // The secant tells the side of the next step.
+    Vector &next = attempt.motion.v;
+    next         = step.displacement();
+    next -= state.motion.u;
+    next *=
+      (speed > 0. ? speed : step.predictor().l2_norm() / state.next_step) /
+      next.l2_norm();
+    end = step.time();
+    check_state(attempt, &state);
+    return attempt;
+  }
+
+  PathAnalysis::Attempt
+  PathAnalysis::last_arc_step(const PathState &state,
+                              const Attempt   &attempt,
+                              const double     end)
+  {
+    PathState guess(state);
+    // Between both states, nearer than either.
+    guess.motion.u.sadd(0.5, 0.5, attempt.motion.u);
+    guess.motion.v = attempt.motion.v;
+    return static_step(guess, end - state.time, false);
   }
 
   void

@@ -17,11 +17,14 @@ namespace Nacre
             return parameters.scheme == TimeScheme::energy_momentum ?
                      "a finer mesh where the shell crumples" :
                      "'Scheme = energy momentum', which gains no energy";
+          case AnalysisType::arc_length:
+            return "a finer mesh or a smaller 'Analysis/Maximum time step' "
+                   "where the path turns sharply";
           case AnalysisType::relaxation:
             return "'Type = dynamic'";
           default:
-            return "'Type = relaxation' or 'dynamic' if the path has a limit "
-                   "or bifurcation point there";
+            return "'Type = arc length', 'relaxation' or 'dynamic' if the path "
+                   "has a limit or bifurcation point there";
         }
     }
   } // namespace

@@ -23,6 +23,28 @@ namespace Nacre
     }
   } // namespace
 
+  namespace
+  {
+    void
+    check_arc_length(const PathParameters &path)
+    {
+      AssertThrow(path.output_times.empty(),
+                  ExcMessage("Analysis/Output times: with Type = arc length "
+                             "t isn't prescribed; leave them out."));
+      AssertThrow(!path.keeps_tangent(),
+                  ExcMessage("Analysis/Tangent updates: 'every step' doesn't "
+                             "follow a path with arc length; choose 'every "
+                             "iteration'."));
+      AssertThrow(path.line_search != LineSearch::always,
+                  ExcMessage("Analysis/Line search: 'always' has no meaning "
+                             "with Type = arc length, whose load changes with "
+                             "the iterations; choose 'automatic' or 'never'."));
+      AssertThrow(path.newton.damping == 1.,
+                  ExcMessage("Analysis/Damping of iterations: Type = arc "
+                             "length takes whole increments; choose 1."));
+    }
+  } // namespace
+
   const Selection<AnalysisType> &
   selection(AnalysisType)
   {
@@ -30,6 +52,7 @@ namespace Nacre
       {AnalysisType::linear, "linear"},
       {AnalysisType::quasi_static, "static"},
       {AnalysisType::relaxation, "relaxation"},
+      {AnalysisType::arc_length, "arc length"},
       {AnalysisType::dynamic, "dynamic"}};
     return table;
   }
@@ -60,8 +83,9 @@ namespace Nacre
                   steps_.type,
                   "linear: one solve; static: equilibria along a load path, by "
                   "Newton's method; relaxation: the same, and by dynamic "
-                  "relaxation where the path is unstable; dynamic: motion in "
-                  "time. All but linear take the kinematics of "
+                  "relaxation where the path is unstable; arc length: along "
+                  "the path, with a time that rises and falls; dynamic: motion "
+                  "in time. All but linear take the kinematics of "
                   "'Discretization/Kinematics'.");
     add_parameter("Start from",
                   steps_.start_from,
@@ -93,6 +117,12 @@ namespace Nacre
                   "Steps that converge easily grow up to here, and leave "
                   "multiples of Time step out; default: Time step. Units: as "
                   "End time.");
+    add_parameter("Maximum steps",
+                  steps_.maximum_steps,
+                  "An arc-length path ends after so many steps if it hasn't "
+                  "reached the End time.",
+                  prm,
+                  Patterns::Integer(1));
     add_parameter("Output times",
                   output_times_text_,
                   "'t1, t2, ...': steps end at these times, too, exactly, and "
@@ -174,6 +204,8 @@ namespace Nacre
     static_cast<StepParameters &>(path) = steps_;
     read_times(constants, path);
     read_start(constants, path);
+    if (path.type == AnalysisType::arc_length)
+      check_arc_length(path);
     return path;
   }
 

@@ -137,6 +137,52 @@ namespace Nacre
   }
 
   ShellSystem::Vector
+  ShellSystem::prescribed_change(const double before, const double after) const
+  {
+    Vector change = owned_vector();
+    for (const auto &[time, sign] :
+         {std::make_pair(before, -1.), std::make_pair(after, 1.)})
+      {
+        const DisplacementConditions conditions(discretization_,
+                                                model_.supports,
+                                                model_.at(time));
+        for (const auto &line : conditions.constraints().get_lines())
+          if (discretization_.locally_owned_dofs().is_element(line.index))
+            change(line.index) += sign * line.inhomogeneity;
+      }
+    change.compress(VectorOperation::add);
+    return change;
+  }
+
+  ShellSystem::Rate
+  ShellSystem::rate(const Vector &u, const double time)
+  {
+    const double dt     = 1e-3;
+    const double before = time - dt, after = time + dt;
+    // How prescribed displacements move the shell, K(u) g, and how loads do.
+    const Vector change = prescribed_change(before, after);
+    Vector       force = owned_vector(), end_force = owned_vector(), end(u);
+    end.add(-0.5, change);
+    shell_operator_.residual(with_ghosts(end),
+                             shell_operator_.actions(model_.at(before)),
+                             force);
+    end.add(1., change);
+    shell_operator_.residual(with_ghosts(end),
+                             shell_operator_.actions(model_.at(after)),
+                             end_force);
+    force -= end_force;
+    force /= 2. * dt;
+    const AffineConstraints<double> homogeneous = homogeneous_constraints();
+    condense(homogeneous, force);
+    Rate result{owned_vector()};
+    solver_.solve(result.velocity, force);
+    result.work = force * result.velocity;
+    homogeneous.distribute(result.velocity);
+    result.velocity.add(0.5 / dt, change);
+    return result;
+  }
+
+  ShellSystem::Vector
   ShellSystem::interpolate(
     const std::function<Tensor<1, spacedim>(const Point<spacedim> &)> &function)
     const

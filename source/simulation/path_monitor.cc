@@ -8,6 +8,7 @@
 #include <nacre/simulation/path_monitor.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -45,7 +46,30 @@ namespace Nacre
   {
     written_         = CheckpointData();
     written_.problem = problem;
+    run_on_root(communicator_, [&]() {
+      std::filesystem::remove(options_.file("_points.csv"));
+    });
   }
+
+  namespace
+  {
+    /**
+     * The header of a table of steps and its rows up to @p last_step: those
+     * after a checkpoint will be written again.
+     */
+    std::pair<std::string, std::string>
+    read_rows(const std::string &csv, const unsigned int last_step)
+    {
+      std::ifstream      in(csv);
+      std::string        header, line;
+      std::ostringstream rows;
+      std::getline(in, header);
+      while (std::getline(in, line))
+        if (std::strtoul(line.c_str(), nullptr, 10) <= last_step)
+          rows << line << '\n';
+      return {header, rows.str()};
+    }
+  } // namespace
 
   void
   PathMonitor::resume(const CheckpointData &data, const ProblemRecord &problem)
@@ -60,27 +84,28 @@ namespace Nacre
     const bool same_quantities =
       !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {
-      // Rows after the checkpoint will be written again.
-      std::ifstream      in(options_.file("_path.csv"));
-      std::string        header, line;
-      std::ostringstream kept;
-      std::getline(in, header);
-      while (std::getline(in, line))
-        if (std::strtoul(line.c_str(), nullptr, 10) <= data.state.step)
-          kept << line << '\n';
-      in.close();
+      const auto [header, kept] =
+        read_rows(options_.file("_path.csv"), data.state.step);
       const bool goes_on = same_quantities && header == csv_header();
-      if (!goes_on && !kept.str().empty())
+      if (!goes_on && !kept.empty())
         {
           earlier_rows_ = options_.file(
             "_path_until_" + std::to_string(data.state.step) + ".csv");
           write_file(earlier_rows_, [&](std::ostream &out) {
-            out << header << '\n' << kept.str();
+            out << header << '\n' << kept;
           });
         }
       write_file(options_.file("_path.csv"), [&](std::ostream &out) {
-        out << csv_header() << '\n' << (goes_on ? kept.str() : "");
+        out << csv_header() << '\n' << (goes_on ? kept : "");
       });
+      const std::string points = options_.file("_points.csv");
+      if (std::filesystem::exists(points))
+        {
+          const auto table = read_rows(points, data.state.step);
+          write_file(points, [&](std::ostream &out) {
+            out << table.first << '\n' << table.second;
+          });
+        }
     });
     if (!earlier_rows_.empty())
       log_.progress() << "other quantities than before: the rows up to step "
@@ -120,6 +145,40 @@ namespace Nacre
       write_fields(state, shell);
     if (path_.checkpoint_steps > 0 && !has_saved_)
       save(state);
+  }
+
+  void
+  PathMonitor::observe_point(const PathPoint &point, const SolvedShell &shell)
+  {
+    const PathState   &state = point.state;
+    std::ostringstream header, row, line;
+    header << "step,kind,time,load_factor,pivots_before,pivots_after";
+    row << std::setprecision(12) << state.step << ',' << point.kind << ','
+        << state.time << ',' << state.load_factor << ',' << point.n_before
+        << ',' << point.n_after;
+    line << point.kind << " point before step " << state.step << ": t "
+         << std::setprecision(8) << state.time << ", load factor "
+         << state.load_factor << ", negative pivots " << point.n_before
+         << " -> " << point.n_after << std::setprecision(6);
+    for (const auto &quantity : quantities_.quantities())
+      {
+        const double value = quantity.evaluate(shell);
+        header << ',' << quantity.name;
+        row << ',' << value;
+        line << ", " << quantity.name << " = " << value;
+      }
+    log_.progress() << line.str() << std::endl;
+    run_on_root(communicator_, [&]() {
+      const std::string csv = options_.file("_points.csv");
+      if (!std::ifstream(csv))
+        write_file(csv,
+                   [&](std::ostream &out) { out << header.str() << '\n'; });
+      std::ofstream out(csv, std::ios::app);
+      out << row.str() << '\n' << std::flush;
+      AssertThrow(out,
+                  ExcMessage("Writing '" + csv +
+                             "' failed: is the disk full?"));
+    });
   }
 
   void
@@ -204,7 +263,9 @@ namespace Nacre
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];
     const unsigned int n_done = state.step - start_step_;
-    if (options_.report_seconds && n_done > 0)
+    // An arc-length path doesn't know how far it has to go.
+    if (options_.report_seconds && n_done > 0 &&
+        path_.type != AnalysisType::arc_length)
       line << std::fixed << std::setprecision(0) << ", "
            << timer_.wall_time() / n_done *
                 grid_.n_steps_left(state.time, state.next_step)

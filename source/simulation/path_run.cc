@@ -199,6 +199,10 @@ namespace Nacre
         warn_of_energy(step);
         monitor.observe(step, solved.shell());
       },
+      [&](const PathPoint &point) {
+        const SolvedState solved(point.state, shell, path, system);
+        monitor.observe_point(point, solved.shell());
+      },
       [&](const std::string &text) { log_.progress() << text << std::endl; });
     const SolvedState last(state, shell, path, system);
     if (has_linear_kinematics(problem_))

@@ -55,6 +55,11 @@ namespace Nacre
     CheckpointData data;
     Checkpoint     checkpoint(discretization, base.string(), where);
     checkpoint.load(data, [](const ProblemRecord &) { return std::string(); });
+    // Of an arc-length path v is no velocity but the path's tangent.
+    const auto type = data.problem.parameters.find("Analysis/Type");
+    if (type != data.problem.parameters.end() &&
+        type->second == name_of(AnalysisType::arc_length))
+      data.state.motion.v = 0.;
 
     log.progress() << "start from step " << data.state.step
                    << ", t = " << data.state.time << " of " << base.string()

@@ -43,6 +43,7 @@ namespace Nacre
         "Analysis/Time step",
         "Analysis/Minimum time step",
         "Analysis/Maximum time step",
+        "Analysis/Maximum steps",
         "Analysis/Output times",
         "Analysis/Maximum iterations",
         "Analysis/Increment tolerance",

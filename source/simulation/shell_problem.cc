@@ -183,6 +183,11 @@ namespace Nacre
                 ExcMessage("Linear solver/Solver: 'multigrid' doesn't know the "
                            "inertia of a dynamic analysis; choose auto or "
                            "direct."));
+    AssertThrow(problem.path.type != AnalysisType::arc_length ||
+                  options.tangent != TangentType::frozen,
+                ExcMessage("Discretization/Tangent: 'frozen' converges slowly, "
+                           "and Type = arc length needs the derivative; choose "
+                           "'symmetric'."));
     AssertThrow(problem.assembly == AssemblyMethod::fast ||
                   (problem.path.is_linear() &&
                    options.edge_form == EdgeForm::rotation_jump),

@@ -168,9 +168,60 @@ BUCKLING = {"Constants": "L = 250, Ncr = 1518.40, imp = 0, "
             "Analysis/End time": "0.5"}
 ROOF = {"Analysis/Type": "relaxation", "Analysis/Time step": "1"}
 FIGURE3 = HERE.parents[1] / "prm/report/figure3.prm"
+BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
 
 # name: file, parameters, check, and numbers of ranks if not only one
+# --- Arc length -----------------------------------------------------------
+def check_points(rows, expected, tolerance):
+    """`expected`: kind, load factor, negative pivots before and after."""
+    check(len(rows.points) == len(expected), f"{len(rows.points)} points")
+    for point, (kind, factor, before, after) in zip(rows.points, expected):
+        check(point["kind"] == kind, f"{point['kind']}, not {kind}")
+        check((float(point["pivots_before"]), float(point["pivots_after"])) ==
+              (before, after), f"pivots at {point['load_factor']}")
+        check_near(kind, float(point["load_factor"]), factor, tolerance)
+
+
+def arch(rows):
+    """The largest and the smallest load of a semi-analytical solution."""
+    check(len(rows) < 30, f"{len(rows)} rows")
+    check_points(rows, [("limit", 52.580408 / 60., 0, 1),
+                        ("limit", 46.188430 / 60., 1, 0)], 2e-6)
+    check(abs(rows[-1]["time"] - 1.) < 1e-12, "not at the end time")
+
+
+def first_limit(rows):
+    check_points(rows, [("limit", 52.580408 / 60., 0, 1)], 1e-5)
+
+
+def displaced_arch(rows):
+    """Prescribed displacements move with t, too."""
+    check_stable(rows)
+    for row in rows:
+        check(abs(row["w"] + 0.25 * row["time"]) < 1e-12, "not as prescribed")
+    check(abs(rows[-1]["time"] - 1.) < 1e-12, "not at the end time")
+
+
+def snap_back(rows):
+    """Sze, Liu and Lo (2004): P/3000 and -w between the limit points."""
+    check_points(rows, [("limit", 0.1951, 0, 1), ("limit", -0.1289, 1, 0)],
+                 2e-3)
+    most = max(rows[:20], key=lambda row: -row["w"])
+    check_near("-w at the first snap-back", -most["w"], 17.008, 5e-3)
+
+
 CASES = {
+    "arch": (BENCHMARKS / "arc_length_arch.prm", {}, arch),
+    "arch.ranks": (BENCHMARKS / "arc_length_arch.prm",
+                   {"Study/Degrees": "3", "Analysis/Maximum steps": "9"},
+                   first_limit, 2),
+    "arch.displacement": (BENCHMARKS / "arc_length_arch.prm", {
+        "Boundary conditions/Edges":
+            "u=0: x = 0, z = -1, rotation = 0; u=1: clamped",
+        "Loads/Edge forces": "", "Analysis/Load factor": "0.25*t"},
+                          displaced_arch),
+    "snap_back": (BENCHMARKS / "arc_length_roof.prm", {
+        "Analysis/Maximum steps": "35"}, snap_back),
     "held_load": ("roof.prm", {"Analysis/Load factor": "min(t, 0.5)",
                                "Analysis/Time step": "0.25"}, held),
     "later_load": ("roof.prm", {"Analysis/Load factor": "max(t - 0.5, 0)",
@@ -214,10 +265,19 @@ CASES = {
 }
 
 
-def read_path(path):
+class Rows(list):
+    """The rows of a path, and its points."""
+    points = ()
+
+
+def read_path(path, points):
     with open(path, newline="", encoding="utf-8") as file:
-        return [{name: float(value) for name, value in row.items()}
-                for row in csv.DictReader(file)]
+        rows = Rows({name: float(value) for name, value in row.items()}
+                    for row in csv.DictReader(file))
+    if points.exists():
+        with open(points, newline="", encoding="utf-8") as file:
+            rows.points = list(csv.DictReader(file))
+    return rows
 
 
 def run_case(nacre, file, parameters, check_rows, n_ranks=1):
@@ -227,7 +287,8 @@ def run_case(nacre, file, parameters, check_rows, n_ranks=1):
         overrides=[f"{name}={value}" for name, value in settings.items()])
     with tempfile.TemporaryDirectory() as folder:
         run_study.run_nacre(arguments, n_ranks, folder)
-        rows = read_path(pathlib.Path(folder, "output", "study_path.csv"))
+        output = pathlib.Path(folder, "output")
+        rows = read_path(output / "study_path.csv", output / "study_points.csv")
     check_rows(rows)
 
 

@@ -81,6 +81,20 @@ case("analysis_time_step", ["Analysis/Time step", "-1", "not positive"],
      {"Analysis/Type": "static", "Analysis/Time step": "-1"})
 case("analysis_minimum_step", ["Analysis/Minimum time step", "larger"],
      {"Analysis/Type": "static", "Analysis/Minimum time step": "2"})
+ARC = {"Analysis/Type": "arc length"}
+case("arc_length_output_times", ["Analysis/Output times", "isn't prescribed"],
+     {**ARC, "Analysis/Output times": "0.5"})
+case("arc_length_updates", ["Analysis/Tangent updates", "'every step'"],
+     {**ARC, "Analysis/Tangent updates": "every step"})
+case("arc_length_line_search", ["Analysis/Line search", "'always'"],
+     {**ARC, "Analysis/Line search": "always"})
+case("arc_length_damping", ["Analysis/Damping of iterations", "choose 1"],
+     {**ARC, "Analysis/Damping of iterations": "0.5"})
+case("arc_length_frozen", ["Discretization/Tangent", "'frozen'"],
+     {**ARC, "Discretization/Kinematics": "corotational",
+      "Discretization/Tangent": "frozen"})
+case("arc_length_unloaded", ["Analysis/Type = arc length", "nothing moves"],
+     {**ARC, "Loads/Force per area": "0, 0, 0"})
 case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],
      {"Analysis/Type": "static", "Analysis/Maximum time step": "0.01"})
 case("analysis_load_factor", ["Analysis/Load factor", "s"],

@@ -23,7 +23,11 @@ namespace Nacre
     double next_step = 0.;
     /** Good steps since the last change of size. */
     unsigned int n_good_steps = 0;
-    MotionState  motion;
+    /**
+     * With arc length v is the tangent of the path (length/time), so scaled
+     * that next_step times |v| is the length of the next step.
+     */
+    MotionState motion;
     /** Of a dynamic path. */
     EnergyBalance balance;
 
@@ -36,6 +40,18 @@ namespace Nacre
     //@}
   };
 
+  /** A point of a path with arc length at which its stability changes. */
+  struct PathPoint
+  {
+    /** "limit", "bifurcation", or "limit and bifurcation". */
+    std::string kind;
+    /** Negative eigenvalues of the tangent before and after it. */
+    unsigned int n_before = 0;
+    unsigned int n_after  = 0;
+    /** A state just after it. */
+    PathState state;
+  };
+
   /**
    * Follows a shell along a load path or in time, with steps that are halved
    * where one fails.
@@ -46,6 +62,8 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     /** Called for the start and after each step. */
     using Observer = std::function<void(const PathState &)>;
+    /** Called for each point of a path with arc length. */
+    using PointObserver = std::function<void(const PathPoint &)>;
     /** Words for the user, as of a step that is tried again. */
     using Messenger = std::function<void(const std::string &)>;
 
@@ -69,7 +87,10 @@ namespace Nacre
      * made small enough, why; @p state is then the last good one.
      */
     std::string
-    run(PathState &state, const Observer &observer, const Messenger &messenger);
+    run(PathState           &state,
+        const Observer      &observer,
+        const PointObserver &point_observer,
+        const Messenger     &messenger);
 
     /** The mass of the shell in motion; null in statics. */
     const MassTerms *
@@ -85,6 +106,38 @@ namespace Nacre
       MotionState          motion;
       EnergyBalance        balance = {};
     };
+
+    /** run() with arc length; the time may fall. */
+    std::string
+    follow_arc(PathState           &state,
+               const Observer      &observer,
+               const PointObserver &point_observer,
+               const Messenger     &messenger);
+
+    /**
+     * The point at which stability changes within the step from @p before to
+     * @p after, by bisection of its length: to a relative 1e-6 of t.
+     */
+    PathPoint
+    find_point(const PathState &before, const PathState &after);
+
+    /** Whether t rises along the direction of the path at @p state. */
+    bool
+    rises(const PathState &state);
+
+    /** A step of length state.next_step times |state.motion.v|. */
+    Attempt
+    arc_step(const PathState &state, double &end);
+
+    /** The equilibrium at the End time between @p state and @p attempt. */
+    Attempt
+    last_arc_step(const PathState &state,
+                  const Attempt   &attempt,
+                  const double     end);
+
+    /** Take what has converged as the next state. */
+    void
+    accept(PathState &state, Attempt &&attempt, const double end) const;
 
     /** try_step() as the parameters say: with a line search, without, both. */
     Attempt

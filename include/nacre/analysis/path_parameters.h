@@ -25,6 +25,8 @@ namespace Nacre
     quasi_static,
     /** The same; where Newton's method fails, by dynamic relaxation. */
     relaxation,
+    /** Equilibria along a path whose load factor may fall. */
+    arc_length,
     /** Motion in time. */
     dynamic
   };
@@ -64,6 +66,8 @@ namespace Nacre
     double spectral_radius = 0.8;
     /** Force per mass and velocity (1/time). */
     double mass_damping = 0.;
+    /** Of a path with arc length. */
+    unsigned int maximum_steps = 1000;
     /** Fields are written every so many steps; 0: at output_times only. */
     unsigned int vtu_steps = 1;
     /** The state is saved every so many steps; 0: never. */

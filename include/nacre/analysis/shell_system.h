@@ -109,6 +109,22 @@ namespace Nacre
                      const Inertia *inertia,
                      const double   share);
 
+    /**
+     * du/dt (length/time) of equilibrium at @p u, with the matrix that
+     * solve_linearised() has solved with last: K du/dt = -r,t, displacements
+     * that are prescribed at @p time included. Derivatives with respect to the
+     * time are central differences, exact for loads that are linear in it.
+     */
+    struct Rate
+    {
+      Vector velocity;
+      /** -r,t . du/dt (force times length/time^2). */
+      double work = 0.;
+    };
+
+    Rate
+    rate(const Vector &u, const double time);
+
     /** -r(u) . du with the constraints eliminated. */
     double
     work(const Vector  &u,
@@ -239,6 +255,10 @@ namespace Nacre
     /** Why forces at the ghosted displacement @p u aren't finite. */
     StepFailure
     not_finite(const Vector &u) const;
+
+    /** Change of the prescribed displacements from @p before to @p after. */
+    Vector
+    prescribed_change(const double before, const double after) const;
 
     /** Move the constrained entries to those that they depend on. */
     void

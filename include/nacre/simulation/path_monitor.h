@@ -56,6 +56,10 @@ namespace Nacre
     void
     finish(const PathState &state, const SolvedShell &shell);
 
+    /** A row of NAME_points.csv and a line for the user. */
+    void
+    observe_point(const PathPoint &point, const SolvedShell &shell);
+
     /** What has been written, for the end of the run. */
     std::string
     summary() const;
