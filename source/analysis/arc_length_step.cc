@@ -21,6 +21,15 @@ namespace Nacre
     , time_(time)
   {}
 
+  void
+  ArcLengthStep::set_predictor(const Vector &predictor)
+  {
+    // At the point itself the tangent is singular.
+    predictor_     = predictor;
+    has_predictor_ = true;
+    u_ += predictor;
+  }
+
   NewtonSolver::Result
   ArcLengthStep::solve(const NewtonSolver::Parameters &parameters)
   {
@@ -55,14 +64,13 @@ namespace Nacre
     double                  dt       = 0.;
     if (!has_predictor_)
       {
-        const double side = direction_ * velocity;
         const double norm = velocity.l2_norm();
         AssertThrow(norm > 0.,
                     ExcMessage("Analysis/Type = arc length: nothing moves the "
                                "shell: no load and no prescribed displacement "
                                "depends on t."));
         dt         = direction_.l2_norm() == 0. ? length_ :
-                     side > 0.                  ? length_ / norm :
+                     direction_ * velocity > 0. ? length_ / norm :
                                                   -length_ / norm;
         predictor_ = velocity;
         predictor_ *= dt;

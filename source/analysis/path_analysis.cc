@@ -134,11 +134,15 @@ namespace Nacre
                            const PointObserver &point_observer,
                            const Messenger     &messenger)
   {
-    const TimeGrid grid = parameters_.time_grid();
+    const TimeGrid     grid           = parameters_.time_grid();
+    const unsigned int switches_at    = std::abs(parameters_.switch_branch);
+    unsigned int       n_bifurcations = 0;
+    Vector             mode;
+    bool               switches = false;
     while (!grid.is_end(state.time) && state.step < parameters_.maximum_steps)
       {
         double  end     = state.time;
-        Attempt attempt = arc_step(state, end);
+        Attempt attempt = arc_step(state, end, switches ? &mode : nullptr);
         if (attempt.result.converged && end > parameters_.end_time)
           {
             end     = parameters_.end_time;
@@ -149,9 +153,27 @@ namespace Nacre
             const PathState before(state);
             accept(state, std::move(attempt), end);
             // The undeformed shell's stability isn't known.
-            if (before.step > 0 &&
+            if (before.step > 0 && !switches &&
                 before.n_negative_pivots != state.n_negative_pivots)
-              point_observer(find_point(before, state));
+              {
+                const PathPoint point = find_point(before, state);
+                point_observer(point);
+                if (point.kind != "limit" && ++n_bifurcations == switches_at)
+                  {
+                    messenger("the path goes on along the branch that leaves "
+                              "this point");
+                    mode = lowest_mode(point.state);
+                    mode *= (parameters_.switch_branch > 0 ? 0.5 : -0.5) *
+                            system_.thickness();
+                    switches = true;
+                    state    = point.state;
+                    // Lengths on the branch have another unit.
+                    state.motion.v  = 0.;
+                    state.next_step = parameters_.time_step;
+                    continue;
+                  }
+              }
+            switches = false;
             system_.set_time(state.time);
             observer(state);
             continue;
@@ -159,12 +181,17 @@ namespace Nacre
         std::ostringstream text;
         text << "step " << state.step + 1 << " from t = " << state.time << ": "
              << attempt.result.reason;
-        state.next_step *= 0.5;
+        // The branch is too near to the point that it leaves.
+        const bool is_near =
+          switches && attempt.result.kind == FailureKind::singular_tangent;
+        state.next_step *= is_near ? 2. : 0.5;
         state.n_good_steps = 0;
-        if (state.next_step < parameters_.minimum_time_step)
+        if (state.next_step < parameters_.minimum_time_step ||
+            (is_near && state.next_step > 100. * parameters_.time_step))
           return text.str() + ". The last good state is kept. " +
                  remedy(attempt.result.kind, parameters_);
-        messenger(text.str() + "; trying half the step");
+        messenger(text.str() + "; trying " + (is_near ? "twice" : "half") +
+                  " the step");
       }
     return "";
   }
@@ -183,9 +210,15 @@ namespace Nacre
     const int n_halvings = 40;
     for (int k = 0; k < n_halvings; ++k)
       {
-        trial.next_step = 0.5 * (low + high);
-        double  end     = before.time;
-        Attempt attempt = arc_step(trial, end);
+        double  end = before.time;
+        Attempt attempt;
+        // At the point itself the tangent may be singular.
+        for (const double share : {0.5, 0.45, 0.6})
+          if (!attempt.result.converged)
+            {
+              trial.next_step = (1. - share) * low + share * high;
+              attempt         = arc_step(trial, end);
+            }
         if (!attempt.result.converged)
           break;
         const unsigned int n = attempt.result.last.n_negative_pivots;
@@ -216,6 +249,37 @@ namespace Nacre
     return point;
   }
 
+  PathAnalysis::Vector
+  PathAnalysis::lowest_mode(const PathState &state)
+  {
+    const MassTerms mass(system_.discretization());
+    Vector          du = system_.owned_vector();
+    system_.set_time(state.time);
+    const auto step = system_.solve_linearised(state.motion.u, du);
+    AssertThrow(step.failure.kind == FailureKind::none,
+                ExcMessage(step.failure.text));
+    // Any vector that has a part of each mode.
+    Vector mode = system_.interpolate([this](const Point<spacedim> &x) {
+      Tensor<1, spacedim> value;
+      for (unsigned int c = 0; c < spacedim; ++c)
+        value[c] =
+          std::sin((7.3 * x[0] + 5.1 * x[1] + 6.7 * x[2]) / system_.size() + c);
+      return value;
+    });
+    system_.improve_mode(mass, 10, mode);
+    double largest = 0.;
+    for (const double entry : mode)
+      if (std::abs(entry) > std::abs(largest))
+        largest = entry;
+    for (const double other :
+         Utilities::MPI::all_gather(system_.discretization().communicator(),
+                                    largest))
+      if (std::abs(other) > std::abs(largest))
+        largest = other;
+    mode /= largest;
+    return mode;
+  }
+
   bool
   PathAnalysis::rises(const PathState &state)
   {
@@ -228,7 +292,9 @@ namespace Nacre
   }
 
   PathAnalysis::Attempt
-  PathAnalysis::arc_step(const PathState &state, double &end)
+  PathAnalysis::arc_step(const PathState &state,
+                         double          &end,
+                         const Vector    *mode)
   {
     const Vector &tangent    = state.motion.v;
     const double  speed      = tangent.l2_norm();
@@ -239,7 +305,13 @@ namespace Nacre
                        state.time,
                        tangent,
                        speed > 0. ? state.next_step * speed : state.next_step);
-    Attempt       attempt{step.solve(parameters), state.motion};
+    if (mode != nullptr)
+      {
+        Vector predictor(*mode);
+        predictor *= state.next_step / parameters_.time_step;
+        step.set_predictor(predictor);
+      }
+    Attempt attempt{step.solve(parameters), state.motion};
     if (!attempt.result.converged)
       return attempt;
     attempt.motion.u = step.displacement();

@@ -123,6 +123,13 @@ namespace Nacre
                   "reached the End time.",
                   prm,
                   Patterns::Integer(1));
+    add_parameter("Switch branch",
+                  steps_.switch_branch,
+                  "k: at the k-th bifurcation point since its start or restart "
+                  "an arc-length path goes on along the branch that leaves "
+                  "there, in the direction of the mode whose largest "
+                  "displacement is along +x, +y or +z; -k: the other way; 0: "
+                  "it stays on its branch.");
     add_parameter("Output times",
                   output_times_text_,
                   "'t1, t2, ...': steps end at these times, too, exactly, and "

@@ -211,6 +211,15 @@ namespace Nacre
     return values;
   }
 
+  double
+  ShellSystem::thickness() const
+  {
+    const auto cell = discretization_.triangulation().begin_active();
+    return Utilities::MPI::max(model_.section.thickness(
+                                 {cell->center(), cell->material_id()}),
+                               discretization_.communicator());
+  }
+
   ShellSystem::Vector
   ShellSystem::owned_vector() const
   {

@@ -38,6 +38,13 @@ namespace Nacre
                   const double  length);
 
     /**
+     * Begin with @p predictor (length) instead, at the same time: at a
+     * bifurcation point the mode of the tangent leads to the other branch.
+     */
+    void
+    set_predictor(const Vector &predictor);
+
+    /**
      * Solve for the end of the step. Fails as NewtonSolver does, and if the
      * curve turns by more than 60 degrees within the step, which may have
      * jumped to another curve then.

@@ -125,9 +125,16 @@ namespace Nacre
     bool
     rises(const PathState &state);
 
-    /** A step of length state.next_step times |state.motion.v|. */
+    /**
+     * A step of length state.next_step times |state.motion.v|.
+     * @param mode if given, the step begins along it, on another branch
+     */
     Attempt
-    arc_step(const PathState &state, double &end);
+    arc_step(const PathState &state, double &end, const Vector *mode = nullptr);
+
+    /** The mode of the tangent's smallest eigenvalue, its largest entry 1. */
+    Vector
+    lowest_mode(const PathState &state);
 
     /** The equilibrium at the End time between @p state and @p attempt. */
     Attempt

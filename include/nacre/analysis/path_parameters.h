@@ -68,6 +68,8 @@ namespace Nacre
     double mass_damping = 0.;
     /** Of a path with arc length. */
     unsigned int maximum_steps = 1000;
+    /** Number of the bifurcation point at which it leaves; 0: at none. */
+    int switch_branch = 0;
     /** Fields are written every so many steps; 0: at output_times only. */
     unsigned int vtu_steps = 1;
     /** The state is saved every so many steps; 0: never. */

@@ -186,6 +186,10 @@ namespace Nacre
       return position_of_largest(last_increment_);
     }
 
+    /** The section's thickness (length) at some point. */
+    double
+    thickness() const;
+
     /** Largest dimension of the shell (length). */
     double
     size() const
