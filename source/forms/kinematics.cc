@@ -164,12 +164,9 @@ namespace Nacre
                     ExcMessage("Discretization/Tangent: 'frozen' is of the "
                                "co-rotational form; 'Kinematics = finite' has "
                                "the exact one only: choose 'symmetric'."));
-        AssertThrow(section.is_linear() && !section.is_coupled(),
-                    ExcMessage("Discretization/Kinematics: finite: edges don't "
-                               "know sections yet that couple membrane forces "
-                               "and bending; choose a symmetric stack with the "
-                               "reference surface in its middle, or "
-                               "corotational."));
+        AssertThrow(section.is_linear(),
+                    ExcMessage("Discretization/Kinematics: finite: it is for "
+                               "linear sections only."));
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
                                                   options.membrane_strain,
