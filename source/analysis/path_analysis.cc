@@ -65,7 +65,8 @@ namespace Nacre
   std::string
   PathAnalysis::run(PathState       &state,
                     const Observer  &observer,
-                    const Messenger &messenger)
+                    const Messenger &messenger,
+                    const Pause     &pauses)
   {
     if (state.step == 0)
       observer(state);
@@ -102,24 +103,43 @@ namespace Nacre
         if (!gain.empty())
           return text.str() + gain;
         ++state.step;
-        state.time              = end;
-        state.motion            = std::move(attempt.motion);
-        state.balance           = attempt.balance;
-        state.load_factor       = system_.load_factor();
-        state.iterations        = attempt.result.iterations;
-        state.residual          = attempt.result.last.residual;
-        state.n_negative_pivots = attempt.result.last.n_negative_pivots;
-        adapt_step(state, attempt);
+        state.time = end;
+        accept(state, std::move(attempt));
+        adapt_step(state);
+        if (pauses && pauses(state))
+          return "";
         observer(state);
       }
     return "";
   }
 
+  std::string
+  PathAnalysis::settle(PathState &state)
+  {
+    Assert(!parameters_.is_dynamic(), ExcInternalError());
+    Attempt attempt = try_searches(state, 0.);
+    if (!attempt.result.converged)
+      return attempt.result.reason;
+    accept(state, std::move(attempt));
+    return "";
+  }
+
   void
-  PathAnalysis::adapt_step(PathState &state, const Attempt &attempt) const
+  PathAnalysis::accept(PathState &state, Attempt &&attempt) const
+  {
+    state.motion            = std::move(attempt.motion);
+    state.balance           = attempt.balance;
+    state.load_factor       = system_.load_factor();
+    state.iterations        = attempt.result.iterations;
+    state.residual          = attempt.result.last.residual;
+    state.n_negative_pivots = attempt.result.last.n_negative_pivots;
+  }
+
+  void
+  PathAnalysis::adapt_step(PathState &state) const
   {
     const double growth = 2.;
-    if (attempt.result.iterations > parameters_.newton.max_iterations / 2)
+    if (state.iterations > parameters_.newton.max_iterations / 2)
       state.n_good_steps = 0;
     else
       ++state.n_good_steps;

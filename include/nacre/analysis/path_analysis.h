@@ -46,6 +46,8 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     /** Called for the start and after each step. */
     using Observer = std::function<void(const PathState &)>;
+    /** Whether to pause at a step, before the observer sees it. */
+    using Pause = std::function<bool(const PathState &)>;
     /** Words for the user, as of a step that is tried again. */
     using Messenger = std::function<void(const std::string &)>;
 
@@ -65,11 +67,23 @@ namespace Nacre
     initial_state(const MotionState *start = nullptr) const;
 
     /**
-     * Go on from @p state to the end time. Returns "", or, if a step can't be
-     * made small enough, why; @p state is then the last good one.
+     * Go on from @p state to the end time, or to a step where @p pauses says
+     * so. Returns "", or, if a step can't be made small enough, why; @p state
+     * is then the last good one.
      */
     std::string
-    run(PathState &state, const Observer &observer, const Messenger &messenger);
+    run(PathState       &state,
+        const Observer  &observer,
+        const Messenger &messenger,
+        const Pause     &pauses = {});
+
+    /**
+     * Bring a static @p state that is close to equilibrium, as one that comes
+     * from another mesh, to equilibrium at its own time. Returns "" or why that
+     * failed; @p state is unchanged then. Collective.
+     */
+    std::string
+    settle(PathState &state);
 
     /** The mass of the shell in motion; null in statics. */
     const MassTerms *
@@ -115,8 +129,13 @@ namespace Nacre
     Attempt
     relax(const PathState &state, const double dt);
 
+    /** Make the attempt's end the state's, at the time that the system has. */
     void
-    adapt_step(PathState &state, const Attempt &attempt) const;
+    accept(PathState &state, Attempt &&attempt) const;
+
+    /** The size of the next step from the iterations of the last one. */
+    void
+    adapt_step(PathState &state) const;
 
     const PathParameters    &parameters_;
     ShellSystem             &system_;

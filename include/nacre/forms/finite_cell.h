@@ -136,6 +136,13 @@ namespace Nacre
       return deformed_[q];
     }
 
+    /** n^ab times area and weight at the point @p q, Voigt. */
+    const Voigt<Number> &
+    force(const unsigned int q) const
+    {
+      return forces_[q];
+    }
+
     /** m^ab times area and weight at the point @p q, Voigt. */
     const Voigt<Number> &
     moment(const unsigned int q) const

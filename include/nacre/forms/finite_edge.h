@@ -124,7 +124,8 @@ namespace Nacre
             side.moment +=
               side.coupling * (*membrane)[s].strain(edge.tying(s), q);
         }
-      fluxes_ = edge_fluxes(edge, q, stiffness, penalty);
+      fluxes_    = edge_fluxes(edge, q, stiffness, penalty);
+      stiffness_ = stiffness;
 
       const Vector &t = sides_[0].normal;
       const Vector &d = sides_[0].tangent;
@@ -169,6 +170,13 @@ namespace Nacre
     mean() const
     {
       return mean_;
+    }
+
+    /** D = {D(nu0, nu0, nu0, nu0)} (force times length). */
+    double
+    stiffness() const
+    {
+      return stiffness_;
     }
 
     /** alpha0 (rad). */
@@ -505,6 +513,7 @@ namespace Nacre
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
     EdgeFluxes          fluxes_;
+    double              stiffness_     = 0.;
     Number              jump_          = 0.;
     Number              mean_          = 0.;
     double              initial_angle_ = 0.;
