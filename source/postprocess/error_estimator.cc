@@ -549,7 +549,7 @@ namespace Nacre
     //@}
     double               stiffness_ = 0.;
     std::vector<Vector3> tangents_;
-    /** Sum of the sides' normals, of the deformed surface in large rotations. */
+    /** Sum of the sides' normals, deformed in large rotations. */
     Vector3 normal_;
     /** @name In large rotations */
     //@{

@@ -129,7 +129,10 @@ namespace Nacre
     ErrorIndicators
     estimate(const Field &field) const;
 
-    /** Of two fields of linear kinematics: eta_K^2(u), eta_K^2(z), and the signed products. */
+    /**
+     * Of two fields of linear kinematics: eta_K^2(u), eta_K^2(z), and the
+     * signed products.
+     */
     std::array<ErrorIndicators, 3>
     estimate(const Field &u, const Field &z) const;
 

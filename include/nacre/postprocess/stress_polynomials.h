@@ -24,8 +24,8 @@ namespace Nacre
    * form of the element's functions, through their values at the points of its
    * full rule, and can be differentiated and continued to the edges.
    *
-   * In large rotations n and m are those of GreenStrain, a_a, t0 and Gamma those
-   * of the deformed surface, and sqrt a stays that of the undeformed one: then
+   * In large rotations n and m are those of GreenStrain, a_a, t0 and Gamma are
+   * the deformed surface's, and sqrt a stays that of the undeformed one: then
    * sqrt a f^b does the work of the internal forces at the deformed state.
    */
   class StressPolynomials

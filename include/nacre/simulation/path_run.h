@@ -19,9 +19,9 @@ namespace Nacre
   class PathMonitor;
 
   /**
-   * A load path or a motion, with files of its own: a row for each step, fields,
-   * checkpoints. The study's table holds the last state. A static path may
-   * refine its mesh on the way, and then has no checkpoints.
+   * A load path or a motion, with files of its own: a row for each step,
+   * fields, checkpoints. The study's table holds the last state. A static path
+   * may refine its mesh on the way, and then has no checkpoints.
    */
   class PathRun : public Analysis
   {
