@@ -65,15 +65,12 @@ namespace Nacre
   }
 
   std::string
-  PathAnalysis::run(PathState           &state,
-                    const Observer      &observer,
-                    const PointObserver &point_observer,
-                    const Messenger     &messenger)
+  PathAnalysis::run(PathState &state, const Callbacks &callbacks)
   {
     if (state.step == 0)
-      observer(state);
+      callbacks.observe(state);
     if (parameters_.type == AnalysisType::arc_length)
-      return follow_arc(state, observer, point_observer, messenger);
+      return follow_arc(state, callbacks);
     const TimeGrid grid = parameters_.time_grid();
     while (!grid.is_end(state.time))
       {
@@ -100,39 +97,47 @@ namespace Nacre
             if (state.next_step < parameters_.minimum_time_step)
               return text.str() + "." + kept.str() + " " +
                      remedy(attempt.result.kind, parameters_);
-            messenger(text.str() + "; trying half the step");
+            callbacks.tell(text.str() + "; trying half the step");
             continue;
           }
         const std::string gain = find_energy_gain(attempt.balance);
         if (!gain.empty())
           return text.str() + gain;
-        accept(state, std::move(attempt), end);
-        observer(state);
+        ++state.step;
+        state.time = end;
+        accept(state, std::move(attempt));
+        adapt_step(state);
+        if (callbacks.pauses && callbacks.pauses(state))
+          return "";
+        callbacks.observe(state);
       }
     return "";
   }
 
-  void
-  PathAnalysis::accept(PathState   &state,
-                       Attempt    &&attempt,
-                       const double end) const
+  std::string
+  PathAnalysis::settle(PathState &state)
   {
-    ++state.step;
-    state.time              = end;
+    Assert(!parameters_.is_dynamic(), ExcInternalError());
+    Attempt attempt = try_searches(state, 0.);
+    if (!attempt.result.converged)
+      return attempt.result.reason;
+    accept(state, std::move(attempt));
+    return "";
+  }
+
+  void
+  PathAnalysis::accept(PathState &state, Attempt &&attempt) const
+  {
+    state.motion            = std::move(attempt.motion);
     state.balance           = attempt.balance;
     state.load_factor       = system_.load_factor();
     state.iterations        = attempt.result.iterations;
     state.residual          = attempt.result.last.residual;
     state.n_negative_pivots = attempt.result.last.n_negative_pivots;
-    adapt_step(state, attempt);
-    state.motion = std::move(attempt.motion);
   }
 
   std::string
-  PathAnalysis::follow_arc(PathState           &state,
-                           const Observer      &observer,
-                           const PointObserver &point_observer,
-                           const Messenger     &messenger)
+  PathAnalysis::follow_arc(PathState &state, const Callbacks &callbacks)
   {
     const TimeGrid     grid           = parameters_.time_grid();
     const unsigned int switches_at    = std::abs(parameters_.switch_branch);
@@ -151,17 +156,21 @@ namespace Nacre
         if (attempt.result.converged)
           {
             const PathState before(state);
-            accept(state, std::move(attempt), end);
+            ++state.step;
+            state.time = end;
+            accept(state, std::move(attempt));
+            adapt_step(state);
             // The undeformed shell's stability isn't known.
             if (before.step > 0 && !switches &&
                 before.n_negative_pivots != state.n_negative_pivots)
               {
                 const PathPoint point = find_point(before, state);
-                point_observer(point);
+                callbacks.observe_point(point);
                 if (point.kind != "limit" && ++n_bifurcations == switches_at)
                   {
-                    messenger("the path goes on along the branch that leaves "
-                              "this point");
+                    callbacks.tell(
+                      "the path goes on along the branch that leaves "
+                      "this point");
                     mode = lowest_mode(point.state);
                     mode *= (parameters_.switch_branch > 0 ? 0.5 : -0.5) *
                             system_.thickness();
@@ -175,7 +184,7 @@ namespace Nacre
               }
             switches = false;
             system_.set_time(state.time);
-            observer(state);
+            callbacks.observe(state);
             continue;
           }
         std::ostringstream text;
@@ -190,8 +199,8 @@ namespace Nacre
             (is_near && state.next_step > 100. * parameters_.time_step))
           return text.str() + ". The last good state is kept. " +
                  remedy(attempt.result.kind, parameters_);
-        messenger(text.str() + "; trying " + (is_near ? "twice" : "half") +
-                  " the step");
+        callbacks.tell(text.str() + "; trying " + (is_near ? "twice" : "half") +
+                       " the step");
       }
     return "";
   }
@@ -340,10 +349,10 @@ namespace Nacre
   }
 
   void
-  PathAnalysis::adapt_step(PathState &state, const Attempt &attempt) const
+  PathAnalysis::adapt_step(PathState &state) const
   {
     const double growth = 2.;
-    if (attempt.result.iterations > parameters_.newton.max_iterations / 2)
+    if (state.iterations > parameters_.newton.max_iterations / 2)
       state.n_good_steps = 0;
     else
       ++state.n_good_steps;

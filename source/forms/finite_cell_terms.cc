@@ -164,33 +164,21 @@ namespace Nacre
   void
   FiniteCellTerms::fill_membrane_rows(const CellPoints &points)
   {
-    const auto        &values  = points.values;
-    const auto        &shapes  = values.tying_shapes();
-    const auto        &samples = values.tying().samples();
-    const unsigned int n       = values.n_dofs();
-    sample_rows_.reinit(samples.size(), n, true);
-    for (unsigned int s = 0; s < samples.size(); ++s)
-      {
-        // direction . dE(N e_c), dE = (A_1 N,1, A_2 N,2, A_1 N,2 + A_2 N,1)
-        const auto &[k, direction] = samples[s];
-        const auto   &A            = points.cell.tangents(k);
-        const Vector3 g_1          = direction[0] * A[0] + direction[2] * A[1];
-        const Vector3 g_2          = direction[2] * A[0] + direction[1] * A[1];
-        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-          {
-            const auto &dN = shapes.gradient(k, a);
-            for (unsigned int c = 0; c < spacedim; ++c)
-              sample_rows_(s, values.dof(a, c)) =
-                dN[0] * g_1[c] + dN[1] * g_2[c];
-          }
-      }
+    const auto &values = points.values;
+    membrane_tangent_.fill_sample_rows(values.tying(),
+                                       values.tying_shapes(),
+                                       points.cell.membrane(),
+                                       [&values](const unsigned int a,
+                                                 const unsigned int c) {
+                                         return values.dof(a, c);
+                                       });
     for (unsigned int q = 0; q < values.n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[s, weight] : values.tying().weights(q, v))
-          add_scaled(n,
-                     weight,
-                     &sample_rows_(s, 0),
-                     &test_rows_(n_rows * q + v, 0));
+        membrane_tangent_.add_strain_row(values.tying(),
+                                         q,
+                                         v,
+                                         1.,
+                                         &test_rows_(n_rows * q + v, 0));
   }
 
   void
@@ -275,30 +263,12 @@ namespace Nacre
   FiniteCellTerms::add_membrane_force_stiffness(const CellPoints &points,
                                                 LocalTerms       &terms)
   {
-    const auto        &values   = points.values;
-    const auto        &shapes   = values.tying_shapes();
-    const unsigned int n_points = shapes.n_points();
-    const unsigned int n_nodes  = shapes.n_nodes();
-    gradient_rows_.reinit(2 * n_points, n_nodes, true);
-    force_rows_.reinit(2 * n_points, n_nodes, true);
-    for (unsigned int k = 0; k < n_points; ++k)
-      {
-        const auto &n = points.cell.tying_force(k);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          {
-            const auto &dN               = shapes.gradient(k, a);
-            gradient_rows_(2 * k, a)     = dN[0];
-            gradient_rows_(2 * k + 1, a) = dN[1];
-            force_rows_(2 * k, a)        = n[0] * dN[0] + n[2] * dN[1];
-            force_rows_(2 * k + 1, a)    = n[2] * dN[0] + n[1] * dN[1];
-          }
-      }
-    node_product_.reinit(n_nodes, n_nodes, true);
-    gradient_rows_.Tmmult(node_product_, force_rows_);
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int b = 0; b < n_nodes; ++b)
+    const auto &values = points.values;
+    const auto &K = membrane_tangent_.force_stiffness(values.tying_shapes(),
+                                                      points.cell.membrane());
+    for (unsigned int a = 0; a < K.m(); ++a)
+      for (unsigned int b = 0; b < K.n(); ++b)
         for (unsigned int c = 0; c < spacedim; ++c)
-          terms.tangent(values.dof(a, c), values.dof(b, c)) +=
-            node_product_(a, b);
+          terms.tangent(values.dof(a, c), values.dof(b, c)) += K(a, b);
   }
 } // namespace Nacre

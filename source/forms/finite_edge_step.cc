@@ -137,7 +137,8 @@ namespace Nacre
         StepDifferences::mean(first.deformed.a_cov[0], last.deformed.a_cov[0]) +
       nu_con[1] *
         StepDifferences::mean(first.deformed.a_cov[1], last.deformed.a_cov[1]);
-    // Delta(m) = -(Delta(Y) . t + Y . Delta(t))
+    // Delta(m) = -(Delta(Y) . t + Y . Delta(t)) + c : Delta(E)
+    side.membrane_force = (force * lambda) * first.coupling;
     side.moment_force =
       -(force * lambda) * StepDifferences::mean(first.normal, last.normal);
     side.normal_force -=

@@ -28,21 +28,33 @@ namespace Nacre
   {
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_nodes(edge, s, u, u_[s]);
+    evaluate_membrane(edge);
     if (terms.wants_tangent)
       reinit_rows(edge);
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
-        point_.reinit(edge, q, section_, penalty, rotation[q], u_);
+        point_.reinit(edge,
+                      q,
+                      section_,
+                      penalty,
+                      rotation[q],
+                      u_,
+                      strains_or_none(membrane_));
         terms.energies.edge += point_.energy();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
           {
             force_.assign(u_[s].size(), Vector3());
             point_.add_force(s, force_);
             add_residual(edge, s, terms);
+            if (section_.is_coupled())
+              membrane_[s].add_point_force(edge.tying(s),
+                                           q,
+                                           point_.membrane_force(s));
           }
         if (terms.wants_tangent)
           fill_rows(edge, q);
       }
+    add_membrane_residual(edge, terms);
     if (terms.wants_tangent)
       add_tangent(edge, terms);
   }
@@ -62,7 +74,12 @@ namespace Nacre
         u_[s].resize(ends_u_[0][s].size());
         for (unsigned int a = 0; a < u_[s].size(); ++a)
           u_[s][a] = 0.5 * (ends_u_[0][s][a] + ends_u_[1][s][a]);
+        if (section_.is_coupled())
+          for (unsigned int end = 0; end < 2; ++end)
+            ends_membrane_[end][s].reinit(EdgeSideTying(edge, s),
+                                          ends_u_[end][s]);
       }
+    evaluate_membrane(edge);
     if (terms.wants_tangent)
       reinit_rows(edge);
     auto &[start, end] = ends_point_;
@@ -70,8 +87,14 @@ namespace Nacre
       {
         const std::array<PrescribedRotation, 2> rotation = {
           {(*rotations[0])[q], (*rotations[1])[q]}};
-        start.reinit(edge, q, section_, penalty, rotation[0], ends_u_[0]);
-        end.reinit(edge, q, section_, penalty, rotation[1], ends_u_[1]);
+        for (unsigned int k = 0; k < 2; ++k)
+          ends_point_[k].reinit(edge,
+                                q,
+                                section_,
+                                penalty,
+                                rotation[k],
+                                ends_u_[k],
+                                strains_or_none(ends_membrane_[k]));
         step_.reinit(edge, q, start, end, rotation);
         terms.rotation_work += step_.rotation_work();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
@@ -79,6 +102,10 @@ namespace Nacre
             force_.assign(u_[s].size(), Vector3());
             step_.add_force(edge, q, s, force_);
             add_residual(edge, s, terms);
+            if (section_.is_coupled())
+              membrane_[s].add_point_force(edge.tying(s),
+                                           q,
+                                           step_.membrane_force(s));
           }
         if (!terms.wants_tangent)
           continue;
@@ -87,10 +114,12 @@ namespace Nacre
                       section_,
                       penalty,
                       mean_rotation(rotation[0], rotation[1]),
-                      u_);
+                      u_,
+                      strains_or_none(membrane_));
         point_.take_means(start, end);
         fill_rows(edge, q);
       }
+    add_membrane_residual(edge, terms);
     if (terms.wants_tangent)
       add_tangent(edge, terms);
   }
@@ -99,7 +128,11 @@ namespace Nacre
   FiniteEdgeTerms::add_tangent(const ShellEdgeValues &edge, LocalTerms &terms)
   {
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
-      add_side_tangent(edge, s, terms);
+      {
+        add_side_tangent(edge, s, terms);
+        if (section_.is_coupled())
+          add_membrane_tangent(edge, s, terms);
+      }
     add_jump_tangent(terms);
   }
 
@@ -126,8 +159,87 @@ namespace Nacre
                                         spacedim * spacedim * n,
                                         true);
       }
-    jump_rows_.reinit(n_points, edge.n_dofs());
-    trial_rows_.reinit(n_points, edge.n_dofs());
+    const bool         is_coupled = section_.is_coupled();
+    const unsigned int n_rows =
+      n_points * (is_coupled ? 1 + edge.n_sides() : 1);
+    jump_rows_.reinit(n_rows, edge.n_dofs());
+    trial_rows_.reinit(n_rows, edge.n_dofs());
+    if (!is_coupled)
+      return;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      membrane_tangents_[s].fill_sample_rows(edge.tying(s),
+                                             edge.tying_shapes(),
+                                             membrane_[s],
+                                             [](const unsigned int a,
+                                                const unsigned int c) {
+                                               return spacedim * a + c;
+                                             });
+  }
+
+  void
+  FiniteEdgeTerms::evaluate_membrane(const ShellEdgeValues &edge)
+  {
+    if (section_.is_coupled())
+      for (unsigned int s = 0; s < edge.n_sides(); ++s)
+        membrane_[s].reinit(EdgeSideTying(edge, s), u_[s]);
+  }
+
+  void
+  FiniteEdgeTerms::add_membrane_residual(const ShellEdgeValues &edge,
+                                         LocalTerms            &terms)
+  {
+    if (!section_.is_coupled())
+      return;
+    for (unsigned int s = 0; s < edge.n_sides(); ++s)
+      {
+        membrane_[s].set_resultants(edge.tying(s));
+        force_.assign(u_[s].size(), Vector3());
+        membrane_[s].add_force(edge.tying_shapes(), force_);
+        add_residual(edge, s, terms);
+      }
+  }
+
+  void
+  FiniteEdgeTerms::add_membrane_rows(const ShellEdgeValues &edge,
+                                     const unsigned int     side,
+                                     const unsigned int     q)
+  {
+    const auto        &point   = point_.side(side);
+    const unsigned int n_nodes = edge.shapes(side).n_nodes();
+    membrane_row_.assign(spacedim * n_nodes, 0.);
+    for (unsigned int v = 0; v < 3; ++v)
+      membrane_tangents_[side].add_strain_row(edge.tying(side),
+                                              q,
+                                              v,
+                                              point.coupling[v],
+                                              membrane_row_.data());
+    // d{lambda m_nn}, and dlambda = lambda nu . v_n
+    const double       mean = point_.fluxes().consistency * point.mean_factor;
+    const double       g    = point_.moment_force(side) * point.lambda;
+    const unsigned int row  = edge.n_points() * (1 + side) + q;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const unsigned int i = edge.dof(side, a, c);
+          const double       M = membrane_row_[spacedim * a + c];
+          trial_rows_(q, i) += mean * point.lambda * M;
+          jump_rows_(row, i)  = point.rows[1][a] * point.conormal[c];
+          trial_rows_(row, i) = g * M;
+        }
+  }
+
+  void
+  FiniteEdgeTerms::add_membrane_tangent(const ShellEdgeValues &edge,
+                                        const unsigned int     side,
+                                        LocalTerms            &terms)
+  {
+    const auto &K =
+      membrane_tangents_[side].force_stiffness(edge.tying_shapes(),
+                                               membrane_[side]);
+    for (unsigned int a = 0; a < K.m(); ++a)
+      for (unsigned int b = 0; b < K.n(); ++b)
+        for (unsigned int c = 0; c < spacedim; ++c)
+          terms.tangent(edge.dof(side, a, c), edge.dof(side, b, c)) += K(a, b);
   }
 
   void
@@ -179,6 +291,8 @@ namespace Nacre
                       (k < 2 ? K[k][2][c][d] * R[2] : 0.);
               }
           }
+        if (section_.is_coupled())
+          add_membrane_rows(edge, s, q);
       }
   }
 

@@ -123,6 +123,26 @@ namespace Nacre
       end.energies.total() - start.energies.total() - step.residual * change;
   }
 
+  namespace
+  {
+    /**
+     * Membrane strains of two rules would have to meet one bending strain: of
+     * large rotations nobody has written that, since tied strains do better.
+     */
+    void
+    refuse_blended_coupling(const Element           &element,
+                            const SectionLaw        &section,
+                            const KinematicsOptions &options)
+    {
+      AssertThrow(!section.is_coupled() ||
+                    !blends_integration(element, options.membrane_strain),
+                  ExcMessage(
+                    "Discretization/Membrane strain: reduced: in large "
+                    "rotations it has no terms for sections that couple "
+                    "membrane forces and bending; use tied."));
+    }
+  } // namespace
+
   std::unique_ptr<Kinematics>
   make_kinematics(const Discretization    &discretization,
                   const SectionLaw        &section,
@@ -146,13 +166,7 @@ namespace Nacre
         AssertThrow(section.is_linear(),
                     ExcMessage("Discretization/Kinematics: corotational: it is "
                                "for linear sections only."));
-        AssertThrow(!section.is_coupled() ||
-                      !blends_integration(discretization.element(),
-                                          options.membrane_strain),
-                    ExcMessage(
-                      "Discretization/Membrane strain: reduced: in "
-                      "co-rotational kinematics it has no terms for sections "
-                      "that couple membrane forces and bending; use tied."));
+        refuse_blended_coupling(discretization.element(), section, options);
         return std::make_unique<CorotationalKinematics>(discretization,
                                                         section,
                                                         options.membrane_strain,
@@ -164,12 +178,10 @@ namespace Nacre
                     ExcMessage("Discretization/Tangent: 'frozen' is of the "
                                "co-rotational form; 'Kinematics = finite' has "
                                "the exact one only: choose 'symmetric'."));
-        AssertThrow(section.is_linear() && !section.is_coupled(),
-                    ExcMessage("Discretization/Kinematics: finite: edges don't "
-                               "know sections yet that couple membrane forces "
-                               "and bending; choose a symmetric stack with the "
-                               "reference surface in its middle, or "
-                               "corotational."));
+        AssertThrow(section.is_linear(),
+                    ExcMessage("Discretization/Kinematics: finite: it is for "
+                               "linear sections only."));
+        refuse_blended_coupling(discretization.element(), section, options);
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
                                                   options.membrane_strain,

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/forms/finite_edge.h>
 #include <nacre/forms/rotation_jump.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
@@ -87,7 +88,7 @@ namespace Nacre
       , fields_(fields)
       , stresses_(discretization_,
                   estimator.section_,
-                  recovers_tied_strain(estimator.kinematics_.membrane_strain),
+                  estimator.kinematics_,
                   displacements(fields))
       , weights_(discretization_.triangulation().n_active_cells())
       , cell_values_(discretization_,
@@ -99,7 +100,10 @@ namespace Nacre
       , vectors_(fields.size())
       , moments_(fields.size())
       , rotations_(fields.size())
+      , is_linear_(estimator.kinematics_.model == KinematicsModel::linear)
+      , u_(discretization_.node_dofs().size())
     {
+      Assert(is_linear_ || fields.size() == 1, ExcInternalError());
       fill_weights();
       for (unsigned int f = 0; f < fields.size(); ++f)
         for (unsigned int g = f; g < fields.size(); ++g)
@@ -131,12 +135,34 @@ namespace Nacre
         if (!cell->is_artificial())
           {
             values.reinit_frames(cell);
+            const auto frame = deformed_frame_at(cell, values, 0);
             weights_[cell->active_cell_index()] =
-              error_weight(values.frame(0),
+              error_weight(frame,
                            estimator_.section_.stiffness(values.frame(0),
                                                          values.point(0)),
                            resolved_wave_number(discretization_.degree()));
           }
+    }
+
+    /** The frame itself in linear kinematics. */
+    SurfaceFrame<>
+    deformed_frame_at(const Iterator        &cell,
+                      const ShellCellValues &values,
+                      const unsigned int     q)
+    {
+      if (is_linear_)
+        return values.frame(q);
+      cell->get_dof_values(*fields_[0].displacement, u_);
+      extract_nodes(values, u_, nodes_[0]);
+      return deformed_frame(values.frame(q), values.shapes(), q, nodes_[0]);
+    }
+
+    /** The time of a field's data. */
+    Instant
+    instant_of(const unsigned int field) const
+    {
+      const auto *const actions = fields_[field].actions;
+      return actions != nullptr ? actions->loads : Instant();
     }
 
     const Tensor3 &
@@ -200,7 +226,14 @@ namespace Nacre
                 vectors_[f] += loads.force_per_area(x,
                                                     frame.t0,
                                                     section.density(x) *
-                                                      section.thickness(x));
+                                                      section.thickness(x),
+                                                    instant_of(f));
+              if (fields_[f].has_data && loads.pressure_follows())
+                {
+                  const auto phi = deformed_frame_at(cell, cell_values_, q);
+                  vectors_[f] += loads.pressure(x, instant_of(f)) * phi.j0 /
+                                 frame.j0 * phi.t0;
+                }
             }
           add(cell,
               Residual::equilibrium,
@@ -219,6 +252,7 @@ namespace Nacre
       if (cell->at_boundary(face))
         {
           edge_.reinit(cell, face);
+          find_prescribed_rotations(cell, face);
           add_edge({{cell, cell}}, cell->face(face)->boundary_id());
         }
       else if (cell->neighbor(face)->has_children())
@@ -334,7 +368,7 @@ namespace Nacre
         {
           for (unsigned int f = 0; f < fields_.size(); ++f)
             vectors_[f] = tractions[f][q];
-          fill_jumps(q);
+          is_linear_ ? fill_jumps(q) : fill_finite_jumps(q);
           if (n_sides == 1)
             apply_boundary_data(id, q);
           add_edge_point(cells, q);
@@ -346,12 +380,14 @@ namespace Nacre
     fill_jumps(const unsigned int q)
     {
       stiffness_ = 0.;
+      normal_    = Vector3();
       std::fill(moments_.begin(), moments_.end(), 0.);
       std::fill(rotations_.begin(), rotations_.end(), 0.);
       for (unsigned int side = 0; side < edge_.n_sides(); ++side)
         {
           side_.reinit(edge_, side, q, estimator_.section_);
           stiffness_ += side_.stiffness / edge_.n_sides();
+          normal_ += edge_.sigma(side, q) * edge_.frame(side, q).t0;
           const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
           for (unsigned int f = 0; f < fields_.size(); ++f)
             for (unsigned int a = 0; a < side_.rotation.size(); ++a)
@@ -363,6 +399,58 @@ namespace Nacre
                 rotations_[f] += sign * side_.rotation[a] * (side_.t0 * u);
                 moments_[f] += sign * side_.moment_of(a, u);
               }
+        }
+    }
+
+    /** The rotations prescribed at the points of a boundary edge, or none. */
+    void
+    find_prescribed_rotations(const Iterator &cell, const unsigned int face)
+    {
+      prescribed_.assign(edge_.n_points(), PrescribedRotation());
+      const auto *const actions = fields_[0].actions;
+      if (actions == nullptr)
+        return;
+      const auto found =
+        actions->rotations.find({cell->active_cell_index(), face});
+      if (found != actions->rotations.end())
+        prescribed_ = found->second;
+    }
+
+    /** fill_jumps() of a deformed state, what is prescribed included. */
+    void
+    fill_finite_jumps(const unsigned int q)
+    {
+      const unsigned int n_sides = edge_.n_sides();
+      const bool         coupled = estimator_.section_.is_coupled();
+      if (q == 0)
+        for (unsigned int side = 0; side < n_sides; ++side)
+          {
+            auto &nodes = nodes_[side];
+            nodes.resize(edge_.shapes(side).n_nodes());
+            for (unsigned int a = 0; a < nodes.size(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                nodes[a][c] = (*fields_[0].displacement)(
+                  edge_.dof_indices()[edge_.dof(side, a, c)]);
+            if (coupled)
+              membrane_[side].reinit(EdgeSideTying(edge_, side), nodes);
+          }
+      point_.reinit(edge_,
+                    q,
+                    estimator_.section_,
+                    1.,
+                    n_sides == 1 ? prescribed_[q] : PrescribedRotation(),
+                    nodes_,
+                    coupled ? &membrane_ : nullptr);
+      stiffness_    = point_.stiffness();
+      rotations_[0] = point_.jump();
+      moments_[0]   = 0.;
+      normal_       = Vector3();
+      for (unsigned int side = 0; side < n_sides; ++side)
+        {
+          const auto &of_side = point_.side(side);
+          moments_[0] += (n_sides == 2 && side == 0 ? -1. : 1.) *
+                         of_side.lambda * of_side.moment;
+          normal_ += of_side.normal;
         }
     }
 
@@ -383,11 +471,11 @@ namespace Nacre
               const auto force  = loads.edge_forces().find(id);
               const auto moment = loads.edge_moments().find(id);
               if (force != loads.edge_forces().end())
-                vectors_[f] -= force->second(point);
+                vectors_[f] -= force->second(point, instant_of(f));
               if (moment != loads.edge_moments().end())
-                moments_[f] -= moment->second(point);
-              if (rotates)
-                rotations_[f] -= (*edge->second.rotation)(point);
+                moments_[f] -= moment->second(point, instant_of(f));
+              if (rotates && is_linear_)
+                rotations_[f] -= (*edge->second.rotation)(point, instant_of(f));
             }
           vectors_[f] = estimator_.conditions_.free_part(id,
                                                          edge_.frame(0, q).t0,
@@ -404,20 +492,18 @@ namespace Nacre
       const unsigned int n_sides = edge_.n_sides();
       Tensor3            W;
       double             h = 0.;
-      Vector3            t0;
       for (unsigned int side = 0; side < n_sides; ++side)
         {
           W += weight_of(cells[side]) / n_sides;
           h += height(edge_.frame(side, q), outward(side, q)) / n_sides;
-          t0 += edge_.sigma(side, q) * edge_.frame(side, q).t0;
         }
-      t0 /= t0.norm();
-      const double k       = resolved_wave_number(discretization_.degree()) / h;
-      const double W_n     = t0 * (W * t0);
-      const auto  &penalty = estimator_.penalty_;
-      const double eta   = n_sides == 2 ? penalty.interior(cells[0], cells[1]) :
-                                          2. * penalty.boundary(cells[0]);
-      const double share = edge_.JxW(q) / n_sides;
+      const Vector3 t   = normal_ / normal_.norm();
+      const double  k   = resolved_wave_number(discretization_.degree()) / h;
+      const double  W_n = t * (W * t);
+      const auto   &penalty = estimator_.penalty_;
+      const double  eta = n_sides == 2 ? penalty.interior(cells[0], cells[1]) :
+                                         2. * penalty.boundary(cells[0]);
+      const double  share = edge_.JxW(q) / n_sides;
       for (unsigned int side = 0; side < n_sides; ++side)
         {
           const auto add_part = [&](const Residual residual,
@@ -463,6 +549,17 @@ namespace Nacre
     //@}
     double               stiffness_ = 0.;
     std::vector<Vector3> tangents_;
+    /** Sum of the sides' normals, deformed in large rotations. */
+    Vector3 normal_;
+    /** @name In large rotations */
+    //@{
+    const bool                             is_linear_;
+    dealii::Vector<double>                 u_;
+    std::array<NodeVectors<double>, 2>     nodes_;
+    std::array<TiedGreenStrain<double>, 2> membrane_;
+    FiniteEdgePoint<double>                point_;
+    std::vector<PrescribedRotation>        prescribed_;
+    //@}
   };
 
 

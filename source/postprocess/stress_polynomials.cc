@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/forms/finite_cell.h>
 #include <nacre/postprocess/stress_polynomials.h>
 
 namespace Nacre
@@ -32,7 +33,27 @@ namespace Nacre
       return projection;
     }
 
-    /** N^1, N^2, M^11, M^22, M^12 at a point of the values' rule. */
+    /** N^1, N^2, M^11, M^22, M^12 of n and m times the root of the metric. */
+    std::array<Vector3, 5>
+    vectors_of(const SurfaceFrame<> &frame, const Voigt<> &n, const Voigt<> &m)
+    {
+      const auto            &a = frame.a_cov;
+      std::array<Vector3, 5> vectors;
+      vectors[0] = n[0] * a[0] + n[2] * a[1];
+      vectors[1] = n[2] * a[0] + n[1] * a[1];
+      for (unsigned int b = 0; b < 2; ++b)
+        {
+          const auto &Gamma = frame.christoffel[b];
+          vectors[b] +=
+            (m[0] * Gamma[0] + m[1] * Gamma[1] + 2. * m[2] * Gamma[2]) *
+            frame.t0;
+        }
+      for (unsigned int v = 0; v < 3; ++v)
+        vectors[2 + v] = m[v] * frame.t0;
+      return vectors;
+    }
+
+    /** Those of a linear displacement at a point of the values' rule. */
     std::array<Vector3, 5>
     vectors_at(const ShellCellValues        &values,
                const SectionLaw             &section,
@@ -48,52 +69,66 @@ namespace Nacre
           }
       const auto &frame  = values.frame(q);
       const auto  answer = section.response(eps, rho, frame, values.point(q));
-      const auto  n      = frame.j0 * answer.membrane_force;
-      const auto  m      = frame.j0 * answer.moment;
-      const auto &a      = frame.a_cov;
+      return vectors_of(frame,
+                        frame.j0 * answer.membrane_force,
+                        frame.j0 * answer.moment);
+    }
 
-      std::array<Vector3, 5> vectors;
-      vectors[0] = n[0] * a[0] + n[2] * a[1];
-      vectors[1] = n[2] * a[0] + n[1] * a[1];
-      for (unsigned int b = 0; b < 2; ++b)
-        {
-          const auto &Gamma = frame.christoffel[b];
-          vectors[b] +=
-            (m[0] * Gamma[0] + m[1] * Gamma[1] + 2. * m[2] * Gamma[2]) *
-            frame.t0;
-        }
-      for (unsigned int v = 0; v < 3; ++v)
-        vectors[2 + v] = m[v] * frame.t0;
-      return vectors;
+    /** The deformed cell, with n and m times the root of the metric. */
+    void
+    deform(const ShellCellValues        &values,
+           const SectionLaw             &section,
+           const dealii::Vector<double> &u,
+           FiniteCell<double>           &cell)
+    {
+      std::vector<SectionBlocks> sections;
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        sections.emplace_back(section,
+                              values.frame(q),
+                              values.point(q),
+                              values.frame(q).j0);
+      NodeVectors<double> nodes;
+      extract_nodes(values, u, nodes);
+      cell.reinit(values, sections, nodes);
     }
   } // namespace
 
   StressPolynomials::StressPolynomials(
     const Discretization                    &discretization,
     const SectionLaw                        &section,
-    const bool                               tied,
+    const KinematicsOptions                 &kinematics,
     const std::vector<const Displacement *> &displacements)
     : n_displacements_(displacements.size())
     , n_nodes_(discretization.scalar_fe().n_dofs_per_cell())
     , nodal_(std::size_t(discretization.triangulation().n_active_cells()) *
              n_displacements_ * n_vectors * n_nodes_)
   {
-    const auto      quadrature = discretization.element().full_quadrature();
-    ShellCellValues values(discretization, quadrature, tied);
-    const auto      projection = make_projection(values.shapes(), quadrature);
+    const auto         quadrature = discretization.element().full_quadrature();
+    ShellCellValues    values(discretization,
+                           quadrature,
+                           recovers_tied_strain(kinematics.membrane_strain));
+    const bool         is_linear = kinematics.model == KinematicsModel::linear;
+    FiniteCell<double> deformed;
+    const auto projection = make_projection(values.shapes(), quadrature);
     dealii::Vector<double> u(values.n_dofs());
     for (const auto &cell :
          discretization.dof_handler().active_cell_iterators())
       if (!cell->is_artificial())
         {
-          values.reinit(cell);
+          is_linear ? values.reinit(cell) : values.reinit_frames(cell);
           for (unsigned int d = 0; d < n_displacements_; ++d)
             {
               cell->get_dof_values(*displacements[d], u);
+              if (!is_linear)
+                deform(values, section, u, deformed);
               Vector3 *nodal = &nodal_[begin(cell, d)];
               for (unsigned int q = 0; q < quadrature.size(); ++q)
                 {
-                  const auto vectors = vectors_at(values, section, u, q);
+                  const auto vectors = is_linear ?
+                                         vectors_at(values, section, u, q) :
+                                         vectors_of(deformed.deformed(q),
+                                                    deformed.force(q),
+                                                    deformed.moment(q));
                   for (unsigned int v = 0; v < n_vectors; ++v)
                     for (unsigned int a = 0; a < n_nodes_; ++a)
                       nodal[v * n_nodes_ + a] += projection(a, q) * vectors[v];

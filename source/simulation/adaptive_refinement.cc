@@ -9,6 +9,7 @@
 #include <nacre/postprocess/refinement_marking.h>
 #include <nacre/simulation/adaptive_refinement.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,9 +37,10 @@ namespace Nacre
   {
     add_parameter("Cycles",
                   n_cycles_,
-                  "How often to refine the mesh of 'Study/Refinements' where "
-                  "the estimated error is large; each mesh is a row of the "
-                  "table. 0: no estimate. Units: none.",
+                  "How often at most to refine the mesh of "
+                  "'Study/Refinements' where the estimated error is large; "
+                  "each mesh is a row of the table, or goes on along the path. "
+                  "0: no estimate. Units: none.",
                   prm,
                   Patterns::Integer(0, 100));
     add_parameter("Estimator",
@@ -67,6 +69,19 @@ namespace Nacre
                   "more. Units: none.",
                   prm,
                   Patterns::Integer(1));
+    add_parameter("Tolerance",
+                  tolerance_,
+                  "An estimate of the energy norm below this fraction of that "
+                  "of the solution, (2 energy)^1/2, isn't refined any more; 0: "
+                  "no limit. Units: none.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Every steps",
+                  n_steps_,
+                  "Along a path the mesh is refined after every so many steps. "
+                  "Units: none.",
+                  prm,
+                  Patterns::Integer(1));
   }
 
   void
@@ -81,10 +96,7 @@ namespace Nacre
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
-    AssertThrow(problem.path.is_linear(),
-                ExcMessage(section + "Cycles: only a linear analysis has an "
-                                     "error estimate; set it to 0, or "
-                                     "'Analysis/Type' to linear."));
+    check_path(problem.path);
     AssertThrow(problem.model.element.type != ElementType::triangle,
                 ExcMessage(section + "Cycles: meshes of triangles are refined "
                                      "as a whole only; set it to 0, or choose "
@@ -119,6 +131,33 @@ namespace Nacre
                            "and the energy."));
   }
 
+  void
+  AdaptiveRefinement::check_path(const PathParameters &path) const
+  {
+    const std::string section = "Adaptive refinement/";
+    AssertThrow(!path.is_dynamic(),
+                ExcMessage(section +
+                           "Cycles: a motion keeps its mesh: velocities that "
+                           "come from another one would change its energy, and "
+                           "the estimate knows no inertia; set it to 0, or "
+                           "'Analysis/Type' to static or linear."));
+    AssertThrow(path.type != AnalysisType::arc_length,
+                ExcMessage(
+                  section +
+                  "Cycles: Type = arc length keeps its mesh, since its "
+                  "direction belongs to it; set it to 0, or "
+                  "'Analysis/Type' to static."));
+    AssertThrow(path.is_linear() || estimator_ == EstimatorType::residual,
+                ExcMessage(section +
+                           "Estimator: 'goal' is for linear analyses only; "
+                           "along a path choose residual."));
+    AssertThrow(tolerance_ == 0. || estimator_ == EstimatorType::residual,
+                ExcMessage(section +
+                           "Tolerance: it is one of the energy norm, that "
+                           "'Estimator = goal' doesn't estimate; set it to "
+                           "0."));
+  }
+
   const GoalFunctional *
   AdaptiveRefinement::goal() const
   {
@@ -139,7 +178,9 @@ namespace Nacre
                                    solution.shell_operator.penalty(),
                                    model.kinematics);
     ErrorEstimate        result;
-    const ErrorEstimator::Field u{&solution.displacement, true};
+    const ErrorEstimator::Field u{&solution.displacement,
+                                  true,
+                                  &solution.actions};
     if (!goal_index_)
       {
         const auto indicators = estimator.estimate(u);
@@ -210,10 +251,13 @@ namespace Nacre
   }
 
   std::optional<std::vector<bool>>
-  AdaptiveRefinement::mark(const ErrorEstimate  &estimate,
-                           const Discretization &mesh) const
+  AdaptiveRefinement::mark(const ErrorEstimate &estimate,
+                           const SolvedShell   &solution) const
   {
-    if (mesh.dof_handler().n_dofs() > max_dofs_)
+    const Discretization &mesh = solution.discretization;
+    const double norm = std::sqrt(std::max(0., 2. * solution.energies.total()));
+    if (mesh.dof_handler().n_dofs() > max_dofs_ ||
+        (tolerance_ > 0. && estimate.value <= tolerance_ * norm))
       return {};
     return marking_ == MarkingType::doerfler ?
              RefinementMarking::bulk(estimate.indicators,

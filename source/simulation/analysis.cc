@@ -18,6 +18,6 @@ namespace Nacre
                                               problem,
                                               adaptive,
                                               log);
-    return std::make_unique<PathRun>(communicator, problem, log);
+    return std::make_unique<PathRun>(communicator, problem, adaptive, log);
   }
 } // namespace Nacre

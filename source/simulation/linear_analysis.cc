@@ -235,7 +235,7 @@ namespace Nacre
                             estimate.indicators);
       if (cycle == adaptive_.n_cycles())
         return nullptr;
-      marked = adaptive_.mark(estimate, shell.discretization());
+      marked = adaptive_.mark(estimate, solved);
       if (!marked)
         return nullptr;
       mesh = shell.release_mesh();

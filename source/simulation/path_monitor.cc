@@ -20,6 +20,7 @@ namespace Nacre
                            const PathParameters       &path,
                            const QuantitiesOfInterest &quantities,
                            Checkpoint                 &checkpoint,
+                           const bool                  saves,
                            Log                        &log)
     : communicator_(communicator)
     , options_(options)
@@ -27,6 +28,7 @@ namespace Nacre
     , grid_(path.time_grid())
     , quantities_(quantities)
     , checkpoint_(checkpoint)
+    , checkpoint_steps_(saves ? path.checkpoint_steps : 0)
     , log_(log)
     , vtu_output_(options.fields)
   {}
@@ -134,7 +136,7 @@ namespace Nacre
       grid_.is_listed(state.time);
     if (options_.write_vtu && is_due)
       write_fields(state, shell);
-    if (path_.checkpoint_steps > 0 && state.step % path_.checkpoint_steps == 0)
+    if (checkpoint_steps_ > 0 && state.step % checkpoint_steps_ == 0)
       save(state);
   }
 
@@ -143,7 +145,7 @@ namespace Nacre
   {
     if (options_.write_vtu && written_.written_fields.count(state.step) == 0)
       write_fields(state, shell);
-    if (path_.checkpoint_steps > 0 && !has_saved_)
+    if (checkpoint_steps_ > 0 && !has_saved_)
       save(state);
   }
 

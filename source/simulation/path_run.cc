@@ -4,7 +4,9 @@
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
+#include <nacre/simulation/adaptive_refinement.h>
 #include <nacre/simulation/discrete_shell.h>
+#include <nacre/simulation/displacement_transfer.h>
 #include <nacre/simulation/path_monitor.h>
 #include <nacre/simulation/path_run.h>
 #include <nacre/simulation/path_start.h>
@@ -32,35 +34,48 @@ namespace Nacre
       return options;
     }
 
-    /** A shell, its system of equations and the steps that solve it. */
-    struct SteppedShell
-    {
-      /** Everything that is wrong without a step is found here. */
-      SteppedShell(const MPI_Comm      communicator,
-                   const ShellProblem &problem,
-                   Log                &log)
-        : shell(communicator, problem, nullptr, 1, log)
-        , system(shell.discretization(),
-                 shell.shell_operator(),
-                 problem.model,
-                 shell.solver())
-        , path(problem.path, system, problem.model.section)
-      {
-        if (has_linear_kinematics(problem))
-          warn_of_linear_path(log);
-      }
-
-      DiscreteShell shell;
-      ShellSystem   system;
-      PathAnalysis  path;
-    };
   } // namespace
+
+  /** A shell, its system of equations and the steps that solve it. */
+  struct PathRun::SteppedShell
+  {
+    /**
+     * Everything that is wrong without a step is found here.
+     * @param mesh null: that of the problem
+     */
+    SteppedShell(const MPI_Comm                       communicator,
+                 const ShellProblem                  &problem,
+                 std::unique_ptr<DiscreteShell::Mesh> mesh,
+                 Log                                 &log)
+      : shell(communicator, problem, std::move(mesh), 1, log)
+      , system(shell.discretization(),
+               shell.shell_operator(),
+               problem.model,
+               shell.solver())
+      , path(problem.path, system, problem.model.section)
+    {}
+
+    DiscreteShell shell;
+    ShellSystem   system;
+    PathAnalysis  path;
+  };
 
   /** A state of the path with its forces, as the quantities see it. */
   class PathRun::SolvedState
   {
   public:
-    /** Sets the time of the @p system. Collective. */
+    /** Sets the time of the system. Collective. */
+    SolvedState(const PathState &state, SteppedShell &stepped)
+      : SolvedState(state, stepped.shell, stepped.path, stepped.system)
+    {}
+
+    const SolvedShell &
+    shell() const
+    {
+      return shell_;
+    }
+
+  private:
     SolvedState(const PathState     &state,
                 const DiscreteShell &shell,
                 const PathAnalysis  &path,
@@ -83,13 +98,6 @@ namespace Nacre
                state.balance}
     {}
 
-    const SolvedShell &
-    shell() const
-    {
-      return shell_;
-    }
-
-  private:
     using Vector = TrilinosWrappers::MPI::Vector;
 
     static Vector
@@ -128,18 +136,33 @@ namespace Nacre
     const SolvedShell shell_;
   };
 
-  PathRun::PathRun(const MPI_Comm      communicator,
-                   const ShellProblem &problem,
-                   Log                &log)
+  PathRun::PathRun(const MPI_Comm            communicator,
+                   const ShellProblem       &problem,
+                   const AdaptiveRefinement &adaptive,
+                   Log                      &log)
     : communicator_(communicator)
     , problem_(problem)
+    , adaptive_(adaptive)
     , log_(log)
-  {}
+  {
+    if (has_linear_kinematics(problem))
+      warn_of_linear_path(log);
+  }
+
+  void
+  PathRun::check_restart(const bool restart) const
+  {
+    AssertThrow(!restart || !adaptive_.is_on(),
+                ExcMessage("--restart: a path with 'Adaptive "
+                           "refinement/Cycles' above 0 has no checkpoints, "
+                           "since they don't hold the mesh; begin anew."));
+  }
 
   void
   PathRun::check(const Recorder &recorder, const bool restart)
   {
-    const SteppedShell   stepped(communicator_, problem_, log_);
+    check_restart(restart);
+    const SteppedShell   stepped(communicator_, problem_, nullptr, log_);
     const DiscreteShell &shell = stepped.shell;
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
@@ -155,28 +178,32 @@ namespace Nacre
   void
   PathRun::run(Recorder &recorder, const bool restart)
   {
-    CpuTimer       timer(communicator_);
-    SteppedShell   stepped(communicator_, problem_, log_);
-    DiscreteShell &shell  = stepped.shell;
-    ShellSystem   &system = stepped.system;
-    PathAnalysis  &path   = stepped.path;
-    SolveRecord    record;
+    check_restart(restart);
+    CpuTimer timer(communicator_);
+    auto     stepped =
+      std::make_unique<SteppedShell>(communicator_, problem_, nullptr, log_);
+    SolveRecord record;
     record.setup = timer.lap();
-    record.eta   = shell.shell_operator().penalty().eta();
-    recorder.check_quantities(shell.discretization());
+    record.eta   = stepped->shell.shell_operator().penalty().eta();
+    recorder.check_quantities(stepped->shell.discretization());
 
     const ProblemRecord problem = current_problem(communicator_);
     const OutputOptions options = own_options(recorder);
-    Checkpoint          checkpoint(shell.discretization(), options.file(""));
-    PathMonitor         monitor(communicator_,
+    // Of the first mesh: where it changes, nothing is saved.
+    Checkpoint  checkpoint(stepped->shell.discretization(), options.file(""));
+    PathMonitor monitor(communicator_,
                         options,
                         problem_.path,
                         recorder.quantities(),
                         checkpoint,
+                        !adaptive_.is_on(),
                         log_);
-    const auto          data =
-      load_state(shell, problem, options.file(""), restart, checkpoint);
-    PathState state;
+    const auto  data = load_state(stepped->shell,
+                                 problem,
+                                 options.file(""),
+                                 restart,
+                                 checkpoint);
+    PathState   state;
     if (restart)
       {
         // A restart that is refused leaves all files as they were.
@@ -186,37 +213,125 @@ namespace Nacre
       }
     else
       {
-        state = path.initial_state(data ? &data->state.motion : nullptr);
+        state =
+          stepped->path.initial_state(data ? &data->state.motion : nullptr);
         run_on_root(communicator_, [&]() { checkpoint.remove(); });
         monitor.start(problem);
       }
 
     timer.lap();
-    const std::string failure = path.run(
-      state,
-      [&](const PathState &step) {
-        const SolvedState solved(step, shell, path, system);
-        warn_of_energy(step);
-        monitor.observe(step, solved.shell());
-      },
-      [&](const PathPoint &point) {
-        const SolvedState solved(point.state, shell, path, system);
-        monitor.observe_point(point, solved.shell());
-      },
-      [&](const std::string &text) { log_.progress() << text << std::endl; });
-    const SolvedState last(state, shell, path, system);
+    const std::string failure = follow(stepped, state, monitor);
+    record.assembly           = Utilities::MPI::sum(assembly_seconds_ +
+                                            stepped->system.assembly_seconds(),
+                                          communicator_);
+    record.solve              = timer.lap() - record.assembly;
+    finish(*stepped, state, failure, record, monitor, recorder);
+  }
+
+  std::string
+  PathRun::follow(std::unique_ptr<SteppedShell> &stepped,
+                  PathState                     &state,
+                  PathMonitor                   &monitor)
+  {
+    const auto observe = [&](const PathState &step) {
+      const SolvedState solved(step, *stepped);
+      warn_of_energy(step);
+      monitor.observe(step, solved.shell());
+    };
+    const auto observe_point = [&](const PathPoint &point) {
+      const SolvedState solved(point.state, *stepped);
+      monitor.observe_point(point, solved.shell());
+    };
+    const auto tell = [&](const std::string &text) {
+      log_.progress() << text << std::endl;
+    };
+    while (true)
+      {
+        bool       pauses = false;
+        const auto is_due = [&](const PathState &step) {
+          pauses = n_refinements_ < adaptive_.n_cycles() &&
+                   adaptive_.is_due(step.step);
+          return pauses;
+        };
+        const std::string failure =
+          stepped->path.run(state, {observe, observe_point, tell, is_due});
+        if (!pauses)
+          return failure;
+        refine(stepped, state);
+        observe(state);
+      }
+  }
+
+  void
+  PathRun::refine(std::unique_ptr<SteppedShell> &stepped, PathState &state)
+  {
+    std::unique_ptr<DiscreteShell::Mesh> mesh;
+    std::optional<DisplacementTransfer>  transfer;
+    double                               estimated = 0.;
+    {
+      const SolvedState solved(state, *stepped);
+      const auto        estimate =
+        adaptive_.estimate(problem_.model, solved.shell(), {});
+      const auto marked = adaptive_.mark(estimate, solved.shell());
+      if (!marked)
+        return;
+      estimated = estimate.value;
+      transfer.emplace(stepped->shell.discretization(),
+                       solved.shell().displacement,
+                       *marked);
+    }
+    assembly_seconds_ += stepped->system.assembly_seconds();
+    mesh = stepped->shell.release_mesh();
+    stepped.reset();
+    transfer->refine(*mesh);
+    stepped = std::make_unique<SteppedShell>(communicator_,
+                                             problem_,
+                                             std::move(mesh),
+                                             log_);
+    ++n_refinements_;
+    const auto        &discretization = stepped->shell.discretization();
+    std::ostringstream text;
+    text << std::setprecision(3) << "refined after step " << state.step
+         << ": estimate " << estimated << " before, "
+         << discretization.triangulation().n_global_active_cells() << " cells, "
+         << discretization.dof_handler().n_dofs() << " dofs";
+    log_.progress() << text.str() << std::endl;
+    state.motion.u = transfer->displacement_on(discretization);
+    state.motion.v = state.motion.a = stepped->system.owned_vector();
+    const std::string failure       = stepped->path.settle(state);
+    AssertThrow(failure.empty(),
+                ExcMessage("Adaptive refinement/Cycles: the refined mesh has "
+                           "no equilibrium close to that of the mesh before at "
+                           "t = " +
+                           std::to_string(state.time) + ": " + failure +
+                           ". Begin with a finer mesh, 'Study/Refinements', or "
+                           "refine less at a time, 'Adaptive "
+                           "refinement/Fraction'."));
+  }
+
+  void
+  PathRun::finish(SteppedShell      &stepped,
+                  const PathState   &state,
+                  const std::string &failure,
+                  SolveRecord       &record,
+                  PathMonitor       &monitor,
+                  Recorder          &recorder)
+  {
+    const SolvedState last(state, stepped);
     if (has_linear_kinematics(problem_))
-      warn_of_large_displacements(shell.discretization(),
+      warn_of_large_displacements(stepped.shell.discretization(),
                                   last.shell().displacement,
                                   log_);
-    record.solver = shell.solver().name();
-    record.assembly =
-      Utilities::MPI::sum(system.assembly_seconds(), communicator_);
-    record.solve = timer.lap() - record.assembly;
+    record.solver = stepped.shell.solver().name();
     monitor.finish(state, last.shell());
     AssertThrow(failure.empty(), ExcMessage(failure));
     recorder.add_summary(monitor.summary());
-    recorder.add(recorder.make_row(last.shell(), record), last.shell(), record);
+    auto row = recorder.make_row(last.shell(), record);
+    if (adaptive_.is_on())
+      adaptive_.add_to_row(last.shell(),
+                           adaptive_.estimate(problem_.model, last.shell(), {}),
+                           row);
+    recorder.add(row, last.shell(), record);
   }
 
   std::optional<CheckpointData>

@@ -6,6 +6,7 @@
 // hanging and oppositely oriented meshes with displacements as large as the
 // cells.
 
+#include "../laminates/laminate_parameters.h"
 #include "finite_shell.h"
 #include <nacre/forms/finite_kinematics.h>
 
@@ -125,22 +126,53 @@ private:
            const Expression    *rotation,
            const ComplexVector &u)
   {
-    std::array<NodeVectors<Complex>, 2> local;
+    std::array<NodeVectors<Complex>, 2>     local;
+    std::array<TiedGreenStrain<Complex>, 2> membrane;
+    const bool                              coupled = section_.is_coupled();
     for (unsigned int s = 0; s < edge_.n_sides(); ++s)
-      local[s] = edge_nodes(s, u);
+      {
+        local[s] = edge_nodes(s, u);
+        if (coupled)
+          membrane[s].reinit(EdgeSideTying(edge_, s), local[s]);
+      }
     FiniteEdgePoint<Complex> point;
     for (unsigned int q = 0; q < edge_.n_points(); ++q)
       {
         const double angle =
           rotation == nullptr ? 0. : (*rotation)(edge_.point(q));
-        point.reinit(edge_, q, section_, penalty, angle, local);
+        point.reinit(edge_,
+                     q,
+                     section_,
+                     penalty,
+                     angle,
+                     local,
+                     coupled ? &membrane : nullptr);
         energy += point.energy();
         for (unsigned int s = 0; s < edge_.n_sides(); ++s)
           {
             NodeVectors<Complex> local_force(local[s].size());
             point.add_force(s, local_force);
             add_nodes(s, local_force);
+            if (coupled)
+              membrane[s].add_point_force(edge_.tying(s),
+                                          q,
+                                          point.membrane_force(s));
           }
+      }
+    if (coupled)
+      add_membrane(membrane);
+  }
+
+  /** What the sides' membrane strains @p membrane do to the nodes. */
+  void
+  add_membrane(std::array<TiedGreenStrain<Complex>, 2> &membrane)
+  {
+    for (unsigned int s = 0; s < edge_.n_sides(); ++s)
+      {
+        membrane[s].set_resultants(edge_.tying(s));
+        NodeVectors<Complex> local_force(edge_.shapes(s).n_nodes());
+        membrane[s].add_force(edge_.tying_shapes(), local_force);
+        add_nodes(s, local_force);
       }
   }
 
@@ -302,12 +334,16 @@ test_shell(const Element       &element,
                       moments.empty());
 }
 
+/** @param parameters with section, conditions and loads */
+template <typename AnyParameters>
 void
-test_mesh(const bool hanging, const unsigned int degree)
+test_mesh(const std::string   &name,
+          const AnyParameters &parameters,
+          const bool           hanging,
+          const unsigned int   degree)
 {
   const auto discretization =
     make_discretization(difficult_mesh(hanging), degree);
-  const Parameters    parameters(section_text(100., 0.3, 0.2));
   const ShellOperator shell_operator(*discretization,
                                      ShellParts(parameters.section,
                                                 parameters.conditions,
@@ -319,7 +355,7 @@ test_mesh(const bool hanging, const unsigned int degree)
                              nullptr,
                              nullptr,
                              MembraneStrain::tied);
-  compare_derivatives("p = " + std::to_string(degree) +
+  compare_derivatives(name + "p = " + std::to_string(degree) +
                         (hanging ? ", hanging" : "") + ", opposite",
                       *discretization,
                       shell_operator,
@@ -340,8 +376,19 @@ main(int argc, char *argv[])
   test_shell({ElementType::lagrange, 3}, MembraneStrain::tied, edges, "");
   test_shell(triangle, MembraneStrain::tied, edges, "");
   test_shell(serendipity, MembraneStrain::reduced, edges, "");
-  test_mesh(false, 2);
-  test_mesh(true, 2);
-  test_mesh(true, 3);
+  {
+    const Parameters parameters(section_text(100., 0.3, 0.2));
+    test_mesh("", parameters, false, 2);
+    test_mesh("", parameters, true, 2);
+    test_mesh("", parameters, true, 3);
+  }
+  // Membrane and bending coupled, n = A E + B kappa, m = B^T E + D kappa
+  const LaminateParameters laminate(
+    laminate_text("[0/30/-60]",
+                  "0.2",
+                  "  set Material direction = 1, 0.4, 0.1\n"));
+  test_mesh("coupled, ", laminate, false, 2);
+  test_mesh("coupled, ", laminate, true, 2);
+  test_mesh("coupled, ", laminate, false, 3);
   return n_failures > 0;
 }

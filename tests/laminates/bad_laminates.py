@@ -127,3 +127,7 @@ case("ply_isotropic", ["'s'", "no plies", "Section/Type"],
       "Quantities/Quantities": "s = ply stress 1 of 1 top at (1, 0.5, 0)"})
 case("laminate_averaged_normal", ["averaged normal", "rotation jump"],
      {L + "Stack": "[0/90]", "Discretization/Edge form": "averaged normal"})
+for model in ("corotational", "finite"):
+    case("laminate_reduced_" + model, ["Membrane strain", "use tied"],
+         {L + "Stack": "[0/90]", "Discretization/Membrane strain": "reduced",
+          "Discretization/Kinematics": model, "Analysis/Type": "static"})

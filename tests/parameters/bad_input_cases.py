@@ -126,6 +126,14 @@ for name, value in (("zero", "0"), ("negative", "-0.5"), ("above_one", "1.5")):
 case("adaptive_goal_unknown",
      ["Adaptive refinement/Goal", "wmax", "w, U"],
      dict(GOAL, **{"Adaptive refinement/Goal": "wmax"}))
+case("adaptive_motion", ["Adaptive refinement/Cycles", "keeps its mesh"],
+     dict(CYCLES, **{"Analysis/Type": "dynamic"}))
+case("adaptive_path_goal", ["Adaptive refinement/Estimator", "linear analyses"],
+     dict(GOAL, **{"Adaptive refinement/Goal": "w", "Analysis/Type": "static",
+                   "Discretization/Kinematics": "finite"}))
+case("adaptive_tolerance_of_goal", ["Adaptive refinement/Tolerance", "energy"],
+     dict(GOAL, **{"Adaptive refinement/Goal": "w",
+                   "Adaptive refinement/Tolerance": "0.1"}))
 case("adaptive_goal_missing", ["Adaptive refinement/Goal", "w, U"], GOAL)
 case("adaptive_goal_nonlinear",
      ["Adaptive refinement/Goal", "'m'", "not linear",
@@ -138,8 +146,8 @@ case("adaptive_goal_without_effect",
 case("adaptive_triangles",
      ["Adaptive refinement/Cycles", "triangles", "quadrilaterals"],
      dict(CYCLES, **{"Discretization/Element": "triangle"}))
-case("adaptive_nonlinear", ["Adaptive refinement/Cycles", "linear analysis"],
-     dict(CYCLES, **{"Analysis/Type": "static"}))
+case("adaptive_restart", ["--restart", "Adaptive refinement/Cycles"],
+     dict(CYCLES, **{"Analysis/Type": "static"}), args=["--restart"])
 case("adaptive_estimator", ["Estimator", "patch", "residual"],
      dict(CYCLES, **{"Adaptive refinement/Estimator": "patch"}))
 case("adaptive_column", ["Quantities/Quantities", "estimate", "another name"],

@@ -64,6 +64,8 @@ namespace Nacre
     using Observer = std::function<void(const PathState &)>;
     /** Called for each point of a path with arc length. */
     using PointObserver = std::function<void(const PathPoint &)>;
+    /** Whether to pause at a step, before the observer sees it. */
+    using Pause = std::function<bool(const PathState &)>;
     /** Words for the user, as of a step that is tried again. */
     using Messenger = std::function<void(const std::string &)>;
 
@@ -82,15 +84,31 @@ namespace Nacre
     PathState
     initial_state(const MotionState *start = nullptr) const;
 
+    /** Whom a path tells what it does; all are called on all ranks. */
+    struct Callbacks
+    {
+      Observer      observe;
+      PointObserver observe_point;
+      Messenger     tell;
+      /** May be empty. */
+      Pause pauses = {};
+    };
+
     /**
-     * Go on from @p state to the end time. Returns "", or, if a step can't be
-     * made small enough, why; @p state is then the last good one.
+     * Go on from @p state to the end time, or to a step where pauses() says
+     * so. Returns "", or, if a step can't be made small enough, why; @p state
+     * is then the last good one.
      */
     std::string
-    run(PathState           &state,
-        const Observer      &observer,
-        const PointObserver &point_observer,
-        const Messenger     &messenger);
+    run(PathState &state, const Callbacks &callbacks);
+
+    /**
+     * Bring a static @p state that is close to equilibrium, as one that comes
+     * from another mesh, to equilibrium at its own time. Returns "" or why that
+     * failed; @p state is unchanged then. Collective.
+     */
+    std::string
+    settle(PathState &state);
 
     /** The mass of the shell in motion; null in statics. */
     const MassTerms *
@@ -109,10 +127,7 @@ namespace Nacre
 
     /** run() with arc length; the time may fall. */
     std::string
-    follow_arc(PathState           &state,
-               const Observer      &observer,
-               const PointObserver &point_observer,
-               const Messenger     &messenger);
+    follow_arc(PathState &state, const Callbacks &callbacks);
 
     /**
      * The point at which stability changes within the step from @p before to
@@ -141,10 +156,6 @@ namespace Nacre
     last_arc_step(const PathState &state,
                   const Attempt   &attempt,
                   const double     end);
-
-    /** Take what has converged as the next state. */
-    void
-    accept(PathState &state, Attempt &&attempt, const double end) const;
 
     /** try_step() as the parameters say: with a line search, without, both. */
     Attempt
@@ -175,8 +186,13 @@ namespace Nacre
     Attempt
     relax(const PathState &state, const double dt);
 
+    /** Make the attempt's end the state's, at the time that the system has. */
     void
-    adapt_step(PathState &state, const Attempt &attempt) const;
+    accept(PathState &state, Attempt &&attempt) const;
+
+    /** The size of the next step from the iterations of the last one. */
+    void
+    adapt_step(PathState &state) const;
 
     const PathParameters    &parameters_;
     ShellSystem             &system_;

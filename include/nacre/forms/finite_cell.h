@@ -6,7 +6,7 @@
 
 #include <nacre/forms/corotational_cell.h>
 #include <nacre/forms/section_blocks.h>
-#include <nacre/mechanics/green_strain.h>
+#include <nacre/forms/tied_green_strain.h>
 
 namespace Nacre
 {
@@ -39,18 +39,13 @@ namespace Nacre
            const bool                        bends = true)
     {
       bends_ = bends;
-      sample_membrane_strains(values, u);
+      membrane_.reinit(values, u);
       membrane_strains_.resize(values.n_points());
       bending_strains_.assign(values.n_points(), Voigt<Number>());
       deformed_.resize(bends ? values.n_points() : 0);
       for (unsigned int q = 0; q < values.n_points(); ++q)
         {
-          for (unsigned int v = 0; v < 3; ++v)
-            {
-              membrane_strains_[q][v] = 0.;
-              for (const auto &[s, weight] : values.tying().weights(q, v))
-                membrane_strains_[q][v] += weight * samples_[s];
-            }
+          membrane_strains_[q] = membrane_.strain(values.tying(), q);
           if (!bends)
             continue;
           deformed_[q] = deformed_frame(values.frame(q), values.shapes(), q, u);
@@ -74,14 +69,10 @@ namespace Nacre
                const FiniteCell<Number>         &end)
     {
       bends_            = start.bends_;
-      tangents_         = start.tangents_;
       membrane_strains_ = start.membrane_strains_;
       bending_strains_  = start.bending_strains_;
       deformed_.resize(start.deformed_.size());
-      for (unsigned int k = 0; k < tangents_.size(); ++k)
-        for (unsigned int alpha = 0; alpha < 2; ++alpha)
-          tangents_[k][alpha] =
-            0.5 * (start.tangents_[k][alpha] + end.tangents_[k][alpha]);
+      membrane_.take_means(start.membrane_, end.membrane_);
       for (unsigned int q = 0; q < deformed_.size(); ++q)
         deformed_[q] =
           StepDifferences::mean_frame(start.deformed_[q], end.deformed_[q]);
@@ -119,19 +110,7 @@ namespace Nacre
     void
     add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
     {
-      for (unsigned int k = 0; k < tangents_.size(); ++k)
-        {
-          // n^ab phi,a . v,b
-          const auto  &n   = tying_forces_[k];
-          const auto  &phi = tangents_[k];
-          const Vector g_1 = n[0] * phi[0] + n[2] * phi[1];
-          const Vector g_2 = n[1] * phi[1] + n[2] * phi[0];
-          for (unsigned int a = 0; a < force.size(); ++a)
-            {
-              const auto &dN = values.tying_shapes().gradient(k, a);
-              force[a] += dN[0] * g_1 + dN[1] * g_2;
-            }
-        }
+      membrane_.add_force(values.tying_shapes(), force);
       for (unsigned int q = 0; q < deformed_.size(); ++q)
         for (unsigned int a = 0; a < force.size(); ++a)
           {
@@ -143,18 +122,11 @@ namespace Nacre
           }
     }
 
-    /** phi,1 and phi,2 at the tying point @p k. */
-    const std::array<Vector, 2> &
-    tangents(const unsigned int k) const
+    /** E at the tying points, and the forces that do work on it. */
+    const TiedGreenStrain<Number> &
+    membrane() const
     {
-      return tangents_[k];
-    }
-
-    /** Work conjugates of E at the tying point @p k, Voigt. */
-    const Voigt<Number> &
-    tying_force(const unsigned int k) const
-    {
-      return tying_forces_[k];
+      return membrane_;
     }
 
     /** The deformed frame at the point @p q. */
@@ -162,6 +134,13 @@ namespace Nacre
     deformed(const unsigned int q) const
     {
       return deformed_[q];
+    }
+
+    /** n^ab times area and weight at the point @p q, Voigt. */
+    const Voigt<Number> &
+    force(const unsigned int q) const
+    {
+      return forces_[q];
     }
 
     /** m^ab times area and weight at the point @p q, Voigt. */
@@ -172,29 +151,7 @@ namespace Nacre
     }
 
   private:
-    void
-    sample_membrane_strains(const ShellCellValues     &values,
-                            const NodeVectors<Number> &u)
-    {
-      const auto &tying = values.tying();
-      tangents_.resize(tying.points().size());
-      std::vector<Voigt<Number>> strains(tying.points().size());
-      for (unsigned int k = 0; k < strains.size(); ++k)
-        {
-          const auto &frame = values.tying_frame(k);
-          const auto  du = displacement_gradient(values.tying_shapes(), k, u);
-          strains[k]     = GreenStrain::membrane(frame, du);
-          for (unsigned int alpha = 0; alpha < 2; ++alpha)
-            tangents_[k][alpha] = frame.a_cov[alpha] + du[alpha];
-        }
-      const auto &samples = tying.samples();
-      samples_.assign(samples.size(), 0.);
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          samples_[s] += samples[s].direction[v] * strains[samples[s].point][v];
-    }
-
-    /** n and m at the points, and n at the tying points. */
+    /** n and m at the points, and what n does to the tying points. */
     void
     set_resultants(const ShellCellValues            &values,
                    const std::vector<SectionBlocks> &sections)
@@ -202,7 +159,6 @@ namespace Nacre
       const auto &tying = values.tying();
       forces_.resize(membrane_strains_.size());
       moments_.assign(membrane_strains_.size(), Voigt<Number>());
-      std::vector<Number> sample_forces(tying.samples().size(), Number(0.));
       for (unsigned int q = 0; q < forces_.size(); ++q)
         {
           forces_[q] =
@@ -210,23 +166,13 @@ namespace Nacre
           if (bends_)
             moments_[q] =
               sections[q].moment(membrane_strains_[q], bending_strains_[q]);
-          for (unsigned int v = 0; v < 3; ++v)
-            for (const auto &[s, weight] : tying.weights(q, v))
-              sample_forces[s] += weight * forces_[q][v];
+          membrane_.add_point_force(tying, q, forces_[q]);
         }
-      tying_forces_.assign(tying.points().size(), Voigt<Number>());
-      for (unsigned int s = 0; s < sample_forces.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          tying_forces_[tying.samples()[s].point][v] +=
-            tying.samples()[s].direction[v] * sample_forces[s];
+      membrane_.set_resultants(tying);
     }
 
-    bool bends_ = true;
-    /** By tying point. */
-    std::vector<std::array<Vector, 2>> tangents_;
-    std::vector<Voigt<Number>>         tying_forces_;
-    /** By sample. */
-    std::vector<Number> samples_;
+    bool                    bends_ = true;
+    TiedGreenStrain<Number> membrane_;
     /** By point. */
     std::vector<SurfaceFrame<Number>> deformed_;
     std::vector<Voigt<Number>>        membrane_strains_;

@@ -117,16 +117,11 @@ namespace Nacre
     NodeVectors<double>                u_;
     std::array<NodeVectors<double>, 2> ends_u_;
     NodeVectors<double>                force_;
-    /** [sample][i]. */
-    FullMatrix<double> sample_rows_;
+    TiedStrainTangent                  membrane_tangent_;
     /** [8 q + row][i]: E, kappa, q_1, q_2, and what they multiply in X. */
     FullMatrix<double> test_rows_;
     FullMatrix<double> trial_rows_;
     FullMatrix<double> product_;
-    /** [2 k + alpha][a]: N,alpha, and n^alpha beta N,beta. */
-    FullMatrix<double> gradient_rows_;
-    FullMatrix<double> force_rows_;
-    FullMatrix<double> node_product_;
   };
 } // namespace Nacre
 

@@ -45,8 +45,10 @@ namespace Nacre
    *   don't penetrate each other: from a fold of the one side onto itself to
    *   that of the other. So theta is in (-2 pi, 2 pi), and jumps only where the
    *   surface passes through itself.
-   * - m_nn = -(Y . t - Y0 . t0), Y = h^ab phi,ab, h = H_m(nu0, nu0), the moment
-   *   nu0 . m . nu0.
+   * - m_nn = -(Y . t - Y0 . t0) + c : E, Y = h^ab phi,ab, h = D(nu0, nu0),
+   *   c = B(nu0, nu0), is the moment nu0 . m . nu0 of m = B^T E + D kappa. E is
+   *   the tied strain, since the displacements' own would bring membrane
+   *   locking back through the edges; only sections that couple have it.
    * - lambda = (j / j0) / |e|, e = dx/ds: the stretch across the edge, which is
    *   nu . phi,a nu0^a. The rotation's work conjugate is lambda m_nn.
    *
@@ -58,7 +60,8 @@ namespace Nacre
    * The variations are in terms of v_e = tau^g v,g (along the edge, per length
    * of the undeformed one), v_n = nu^g v,g (along nu, per deformed length) and
    * y = h^ab v,ab of each side; a^g (t . v,g) = d (t . v_e) / |e| +
-   * nu (t . v_n).
+   * nu (t . v_n). What E changes is the business of TiedGreenStrain: its work
+   * conjugate is membrane_force().
    */
   template <typename Number>
   class FiniteEdgePoint
@@ -75,6 +78,8 @@ namespace Nacre
       std::array<double, 2> tau;
       /** Y0 . t0 with sigma (force). */
       double initial_moment;
+      /** c with sigma: only set for sections that couple. */
+      Voigt<> coupling;
       /** Factor of the angle of t in alpha, and of lambda m_nn in the mean. */
       double jump_factor;
       double mean_factor;
@@ -96,20 +101,31 @@ namespace Nacre
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
      * @param rotation not used for interior edges
+     * @param membrane the strains of each side, for sections that couple; null
+     *   for others, and where nobody asks for moments
      */
     void
-    reinit(const ShellEdgeValues                    &edge,
-           const unsigned int                        q,
-           const SectionLaw                         &section,
-           const double                              penalty,
-           const PrescribedRotation                 &rotation,
-           const std::array<NodeVectors<Number>, 2> &u)
+    reinit(
+      const ShellEdgeValues                              &edge,
+      const unsigned int                                  q,
+      const SectionLaw                                   &section,
+      const double                                        penalty,
+      const PrescribedRotation                           &rotation,
+      const std::array<NodeVectors<Number>, 2>           &u,
+      const std::array<TiedGreenStrain<Number>, 2> *const membrane = nullptr)
     {
       n_sides_         = edge.n_sides();
       double stiffness = 0.;
       for (unsigned int s = 0; s < n_sides_; ++s)
-        stiffness += reinit_side(edge, s, q, section, u[s]);
-      fluxes_ = edge_fluxes(edge, q, stiffness, penalty);
+        {
+          Side &side = sides_[s];
+          stiffness += reinit_side(edge, s, q, section, u[s]);
+          if (membrane != nullptr)
+            side.moment +=
+              side.coupling * (*membrane)[s].strain(edge.tying(s), q);
+        }
+      fluxes_    = edge_fluxes(edge, q, stiffness, penalty);
+      stiffness_ = stiffness;
 
       const Vector &t = sides_[0].normal;
       const Vector &d = sides_[0].tangent;
@@ -154,6 +170,13 @@ namespace Nacre
     mean() const
     {
       return mean_;
+    }
+
+    /** D = {D(nu0, nu0, nu0, nu0)} (force times length). */
+    double
+    stiffness() const
+    {
+      return stiffness_;
     }
 
     /** alpha0 (rad). */
@@ -210,6 +233,14 @@ namespace Nacre
       return sides_[s].mean_factor * fluxes_.consistency * jump_;
     }
 
+    /** Work conjugate of E of the side @p s, for sections that couple. */
+    Voigt<Number>
+    membrane_force(const unsigned int s) const
+    {
+      const Number factor = moment_force(s) * sides_[s].lambda;
+      return Voigt<Number>(factor * sides_[s].coupling);
+    }
+
     /** How theta changes with v_e, v_n and y of the side @p s. */
     std::array<Vector, 3>
     jump_gradient(const unsigned int s) const
@@ -256,7 +287,8 @@ namespace Nacre
     /**
      * rotation_force() d2(theta) + moment_force() d2(lambda m_nn) of the side
      * @p s, less what the antisymmetric parts of both sides' d2(theta) have in
-     * common: they cancel.
+     * common: they cancel. Without the derivatives by E, which are
+     * moment_force() (dlambda c : dE + c : dE dlambda + lambda c : d2E).
      *
      * An edge that has not yet reached its prescribed rotation, at the start of
      * a step, stands under the penalty's moment, many times the shell's; with
@@ -297,13 +329,15 @@ namespace Nacre
                 const SectionLaw          &section,
                 const NodeVectors<Number> &u)
     {
-      Side         &side   = sides_[s];
-      const auto   &frame  = edge.frame(s, q);
-      const auto   &shapes = edge.shapes(s);
-      const double  sigma  = edge.sigma(s, q);
-      const auto    dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
-      const Voigt<> H_nu =
-        SectionBlocks(section, frame, edge.point(q, s)).D * dyad;
+      Side        &side   = sides_[s];
+      const auto  &frame  = edge.frame(s, q);
+      const auto  &shapes = edge.shapes(s);
+      const double sigma  = edge.sigma(s, q);
+      const auto   dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
+      const SectionBlocks blocks(section, frame, edge.point(q, s));
+      const Voigt<>       H_nu = blocks.D * dyad;
+      if (blocks.is_coupled)
+        side.coupling = sigma * (blocks.B * dyad);
       const auto d0 =
         cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
       side.tau         = {{d0 * frame.a_con[0], d0 * frame.a_con[1]}};
@@ -434,7 +468,7 @@ namespace Nacre
 
     /**
      * Half of the diagonal blocks, K[0][1] and K[k][2] of moment_force()
-     * d2(lambda m), m = -(Y . t - Y0 . t0):
+     * d2(lambda m), m = -(Y . t - Y0 . t0) + c : E, E being held:
      *
      * dlambda = lambda nu . v_n,
      * d2lambda = lambda ((t . v_n)(t . w_n) - (nu . v_e)(nu . w_e) / |e|^2
@@ -479,6 +513,7 @@ namespace Nacre
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
     EdgeFluxes          fluxes_;
+    double              stiffness_     = 0.;
     Number              jump_          = 0.;
     Number              mean_          = 0.;
     double              initial_angle_ = 0.;

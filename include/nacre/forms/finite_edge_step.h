@@ -22,7 +22,7 @@ namespace Nacre
    * - Delta(theta) = (delta/2) / sin(delta/2) (cos(alpha_m) Delta(y) -
    *   sin(alpha_m) Delta(x)), delta = Delta(alpha), of the cosine
    *   x = t^- . t^+ and the sine y = -nu^- . t^+ of alpha;
-   * - m_nn = -(Y . t) + const;
+   * - m_nn = -(Y . t) + c : E + const; Delta(E) is dE at the mean positions;
    * - lambda = nu . p, p = phi,a nu0^a;
    * - nu is the unit vector orthogonal to the edge e = dx/ds and to t.
    *
@@ -53,6 +53,16 @@ namespace Nacre
               const unsigned int     side,
               NodeVectors<double>   &force) const;
 
+    /**
+     * Work conjugate of E of the side @p s at the mean positions, for sections
+     * that couple membrane and bending: TiedGreenStrain::take_means().
+     */
+    const Voigt<> &
+    membrane_force(const unsigned int s) const
+    {
+      return sides_[s].membrane_force;
+    }
+
     /** Work of the prescribed rotation (force times length). */
     double
     rotation_work() const
@@ -66,6 +76,7 @@ namespace Nacre
       /** Row of y = h^ab v,ab, and its work conjugate. */
       std::vector<double> moment_row;
       Vector              moment_force;
+      Voigt<>             membrane_force;
       /** Work conjugates of phi,alpha. */
       std::array<Vector, 2> basis_forces;
       /** Of t, nu, p and e. */

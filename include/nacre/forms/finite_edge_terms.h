@@ -17,6 +17,12 @@ namespace Nacre
    *
    * X_q = dtheta (1/2 eta^e D dtheta - d{lambda m_nn}) of all dofs, R_k the
    * scalar rows of v_e, v_n and y, and K_kl FiniteEdgePoint::hessian().
+   *
+   * Sections that couple membrane and bending add the share of the tied strain
+   * E in m_nn: its rows M_q = c : dE belong to d{lambda m_nn} in X_q, and with
+   * g = FiniteEdgePoint::moment_force() there is, for each side,
+   *
+   *   g dlambda M_q + (g dlambda M_q)^T + g lambda c : d2E.
    */
   class FiniteEdgeTerms
   {
@@ -62,9 +68,36 @@ namespace Nacre
                LocalTerms                &terms);
 
   private:
+    /** The membrane strains of all sides at u_; with coupling only. */
+    void
+    evaluate_membrane(const ShellEdgeValues &edge);
+
+    /** What reinit() of a point takes. */
+    const std::array<TiedGreenStrain<double>, 2> *
+    strains_or_none(const std::array<TiedGreenStrain<double>, 2> &strains) const
+    {
+      return section_.is_coupled() ? &strains : nullptr;
+    }
+
+    /** Add the force of what all points do to the membrane strains. */
+    void
+    add_membrane_residual(const ShellEdgeValues &edge, LocalTerms &terms);
+
     /** Room for the rows of all points. */
     void
     reinit_rows(const ShellEdgeValues &edge);
+
+    /** What E adds to the rows of X at the point @p q of point_. */
+    void
+    add_membrane_rows(const ShellEdgeValues &edge,
+                      const unsigned int     side,
+                      const unsigned int     q);
+
+    /** g lambda c : d2E of all points of a side. */
+    void
+    add_membrane_tangent(const ShellEdgeValues &edge,
+                         const unsigned int     side,
+                         LocalTerms            &terms);
 
     /** The rows of the sides and of X at the point @p q of point_. */
     void
@@ -97,10 +130,21 @@ namespace Nacre
     std::array<FiniteEdgePoint<double>, 2>            ends_point_;
     std::array<std::array<NodeVectors<double>, 2>, 2> ends_u_;
     FiniteEdgeStep                                    step_;
+    /** @name Of sections that couple membrane and bending only */
+    //@{
+    std::array<TiedGreenStrain<double>, 2>                membrane_;
+    std::array<std::array<TiedGreenStrain<double>, 2>, 2> ends_membrane_;
+    std::array<TiedStrainTangent, 2>                      membrane_tangents_;
+    /** M_q of a side by node and component. */
+    std::vector<double> membrane_row_;
+    //@}
     /** [3 q + k][a]: R_k, and [3 q + k][c n + 3 b + d]: sum_l K_kl R_l. */
     std::array<FullMatrix<double>, 2> side_rows_;
     std::array<FullMatrix<double>, 2> side_derivative_rows_;
-    /** [q][i]: dtheta, and what it multiplies in X. */
+    /**
+     * [q][i]: dtheta, and what it multiplies in X; with coupling then [n_points
+     * (1 + side) + q][i]: dlambda / lambda, and g lambda M_q.
+     */
     FullMatrix<double> jump_rows_;
     FullMatrix<double> trial_rows_;
     FullMatrix<double> product_;

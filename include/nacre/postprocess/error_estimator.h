@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/edge_penalty.h>
+#include <nacre/forms/shell_actions.h>
 #include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
@@ -90,6 +91,11 @@ namespace Nacre
    * within each cell and differentiated, and no residual is split into
    * components: the weight W, a tensor of space, does that (error_weight()).
    *
+   * In large rotations the residuals are those of equilibrium at the deformed
+   * state, exactly but for the shear strain of edges against 1, f that of
+   * StressPolynomials, theta and m_nn those of FiniteEdgePoint (lambda m_nn);
+   * the weight is that of the deformed surface without its prestress.
+   *
    * doc/adaptive.md derives it and tells what is neglected.
    */
   class ErrorEstimator
@@ -107,6 +113,8 @@ namespace Nacre
        * them are 0, as for the dual solution.
        */
       bool has_data = true;
+      /** The loads and rotations at its time; null: those of Instant(). */
+      const ShellActions *actions = nullptr;
     };
 
     /** Everything must stay alive; collective. */
@@ -117,11 +125,14 @@ namespace Nacre
                    const EdgePenalty        &penalty,
                    const KinematicsOptions  &kinematics);
 
-    /** eta_K^2 of one field; collective. */
+    /** eta_K^2 of one field, of any kinematics; collective. */
     ErrorIndicators
     estimate(const Field &field) const;
 
-    /** Of two fields: eta_K^2(u), eta_K^2(z), and the signed products. */
+    /**
+     * Of two fields of linear kinematics: eta_K^2(u), eta_K^2(z), and the
+     * signed products.
+     */
     std::array<ErrorIndicators, 3>
     estimate(const Field &u, const Field &z) const;
 

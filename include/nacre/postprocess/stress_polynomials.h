@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/section_law.h>
+#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -22,6 +23,10 @@ namespace Nacre
    * of which the internal forces are sqrt a f^b = N^b + M^ab,a. They take the
    * form of the element's functions, through their values at the points of its
    * full rule, and can be differentiated and continued to the edges.
+   *
+   * In large rotations n and m are those of GreenStrain, a_a, t0 and Gamma are
+   * the deformed surface's, and sqrt a stays that of the undeformed one: then
+   * sqrt a f^b does the work of the internal forces at the deformed state.
    */
   class StressPolynomials
   {
@@ -31,12 +36,11 @@ namespace Nacre
     using Displacement  = TrilinosWrappers::MPI::Vector;
 
     /**
-     * @param tied whether membrane strains are tied
      * @param displacements ghosted (length)
      */
     StressPolynomials(const Discretization                    &discretization,
                       const SectionLaw                        &section,
-                      const bool                               tied,
+                      const KinematicsOptions                 &kinematics,
                       const std::vector<const Displacement *> &displacements);
 
     /** Values of a displacement's polynomials on a cell: [vector][node]. */

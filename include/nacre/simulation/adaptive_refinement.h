@@ -56,7 +56,7 @@ namespace Nacre
 
   /**
    * Cycles of solving, estimating the error, and refining where it is large:
-   * doc/adaptive.md.
+   * doc/adaptive.md. Along a path a cycle is a step of the path.
    */
   class AdaptiveRefinement : public ParameterAcceptor
   {
@@ -85,12 +85,20 @@ namespace Nacre
       return n_cycles_;
     }
 
+    /** Whether the mesh is to be refined after the step @p step of a path. */
+    bool
+    is_due(const unsigned int step) const
+    {
+      return is_on() && step % n_steps_ == 0;
+    }
+
     /** The goal, or null for the energy norm of the error. */
     const GoalFunctional *
     goal() const;
 
     /**
-     * The error of a solution of a linear analysis of @p model; collective.
+     * The error of a solution of @p model, at the time of its actions, or of a
+     * linear analysis; collective.
      * @param dual the ghosted dual solution of goal(); unused without
      */
     ErrorEstimate
@@ -110,17 +118,27 @@ namespace Nacre
                const ErrorEstimate &estimate,
                ResultsTable::Row   &row) const;
 
-    /** The cells to refine, or nothing if the mesh has dofs enough. */
+    /**
+     * The cells to refine, or nothing if the mesh has dofs enough or the
+     * estimate is below the tolerance.
+     */
     std::optional<std::vector<bool>>
-    mark(const ErrorEstimate &estimate, const Discretization &mesh) const;
+    mark(const ErrorEstimate &estimate, const SolvedShell &solution) const;
 
   private:
     unsigned int  n_cycles_  = 0;
     EstimatorType estimator_ = EstimatorType::residual;
     std::string   goal_name_;
-    MarkingType   marking_  = MarkingType::doerfler;
-    double        fraction_ = 0.5;
-    unsigned int  max_dofs_ = 1000000;
+    MarkingType   marking_   = MarkingType::doerfler;
+    double        fraction_  = 0.5;
+    unsigned int  max_dofs_  = 1000000;
+    double        tolerance_ = 0.;
+    unsigned int  n_steps_   = 1;
+
+    /** What no nonlinear analysis can do. */
+    void
+    check_path(const PathParameters &path) const;
+
 
     /** Place of the goal among the quantities. */
     std::optional<unsigned int> goal_index_;

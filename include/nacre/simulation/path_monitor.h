@@ -25,12 +25,16 @@ namespace Nacre
   class PathMonitor
   {
   public:
-    /** @param options with the name of the path's own files */
+    /**
+     * @param options with the name of the path's own files
+     * @param saves whether the state may be saved: not where the mesh changes
+     */
     PathMonitor(const MPI_Comm              communicator,
                 const OutputOptions        &options,
                 const PathParameters       &path,
                 const QuantitiesOfInterest &quantities,
                 Checkpoint                 &checkpoint,
+                const bool                  saves,
                 Log                        &log);
 
     /** Begin with the parameters @p problem, which checkpoints remember. */
@@ -86,11 +90,13 @@ namespace Nacre
     const TimeGrid              grid_;
     const QuantitiesOfInterest &quantities_;
     Checkpoint                 &checkpoint_;
-    Log                        &log_;
-    VtuOutput                   vtu_output_;
-    CheckpointData              written_;
-    bool                        has_saved_ = false;
-    Timer                       timer_;
+    /** 0: never. */
+    const unsigned int checkpoint_steps_;
+    Log               &log_;
+    VtuOutput          vtu_output_;
+    CheckpointData     written_;
+    bool               has_saved_ = false;
+    Timer              timer_;
     /** The step where the timer started. */
     unsigned int start_step_ = 0;
     /** The rows before a restart with other quantities, if there was one. */
