@@ -15,8 +15,11 @@ namespace Nacre
   {
     /** Eigenvalues sought beside those wanted: to find a gap to count in. */
     constexpr unsigned int n_extra = 4;
-    /** Vectors of a block: multiple eigenvalues come together. */
-    constexpr unsigned int block_size = 2;
+    /**
+     * Vectors of a block. One takes the fewest substitutions; copies of a
+     * multiple eigenvalue come by round-off, or by the search after a count.
+     */
+    constexpr unsigned int block_size = 1;
 
     /** A shift in a gap above the value @p k of ascending @p values. */
     double

@@ -118,7 +118,13 @@ namespace Nacre
     modes.assembly += timer.lap();
     modes.state = prestress.solve(K, 1., shell.solver());
     timer.lap();
-    prestress.add(modes.state, 1., 1., K);
+    if (problem_.modes.prestress != PrestressKind::none)
+      {
+        Matrix G;
+        shell.shell_operator().reinit_matrix(prestress.constraints(), G);
+        prestress.add(modes.state, 1., 1., G);
+        K.add(1., G);
+      }
     modes.assembly += timer.lap();
 
     Eigenproblem problem(K, M, true, free_dofs(shell, prestress.constraints()));

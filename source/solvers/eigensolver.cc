@@ -138,10 +138,9 @@ namespace Nacre
                     const int          block_size,
                     const int          n_available)
     {
-      // Anasazi wants room for two blocks more than it keeps at a restart.
-      const int n_kept = (search.n_wanted + block_size - 1) / block_size;
-      const int n_blocks =
-        std::max(n_kept + 3, std::max(2 * n_kept, 20 / block_size + n_kept));
+      // Memory is cheap beside the substitutions that restarts cost.
+      const int n_kept   = (search.n_wanted + block_size - 1) / block_size;
+      const int n_blocks = n_kept + std::max(n_kept, 80 / block_size);
       Teuchos::ParameterList parameters;
       parameters.set("Which", search.end == SpectrumEnd::largest ? "LR" : "SR");
       parameters.set("Block Size", block_size);

@@ -52,7 +52,10 @@ namespace Nacre
     Vector
     solve(const Matrix &K, const double time, LinearSolver &solver) const;
 
-    /** Add factor G of the state @p u at @p time to the @p matrix. */
+    /**
+     * Add factor G of the state @p u at @p time to the @p matrix, and clear
+     * the rows of constrained dofs.
+     */
     void
     add(const Vector &u,
         const double  time,
