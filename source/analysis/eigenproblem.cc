@@ -164,62 +164,62 @@ namespace Nacre
       }
   }
 
+  std::optional<double>
+  Eigenproblem::place_to_count(const std::vector<double> &values,
+                               const unsigned int         n_wanted,
+                               const unsigned int         n_most,
+                               const double               tolerance)
+  {
+    unsigned int k = std::min<std::size_t>(n_wanted, values.size());
+    while (k < values.size() &&
+           values[k] - values[k - 1] <=
+             tolerance * std::max(std::abs(values[k]), std::abs(values[k - 1])))
+      ++k;
+    if (k < values.size())
+      return middle_of_gap(values, k);
+    if (values.size() >= n_most || values.size() < n_wanted)
+      // There are no more.
+      return values.back() + 1e-3 * std::abs(values.back());
+    return {};
+  }
+
   Spectrum
   Eigenproblem::find_above(const double                 lower,
                            const unsigned int           n_wanted,
                            const std::optional<double> &upper,
                            const double                 tolerance)
   {
-    const double infinity = std::numeric_limits<double>::infinity();
-    Spectrum     spectrum;
-    double       shift = lower, top = upper.value_or(infinity);
-    unsigned int n = n_wanted;
+    const double       infinity = std::numeric_limits<double>::infinity();
+    Spectrum           spectrum;
+    double             shift = lower, top = upper.value_or(infinity);
+    unsigned int       n     = n_wanted;
+    const unsigned int n_top = upper ? count_below(top) : 0;
+    spectrum.n_below         = count_below(shift);
+    spectrum.counted         = {shift, top};
     if (upper)
-      {
-        const unsigned int n_top = count_below(top);
-        spectrum.n_below         = count_below(shift);
-        n                        = std::min(n, n_top - spectrum.n_below);
-        spectrum.counted         = {shift, top};
-        if (n == 0)
-          return spectrum;
-      }
-    else
-      spectrum.n_below = count_below(shift);
+      n = std::min(n, n_top - spectrum.n_below);
+    if (n == 0)
+      return spectrum;
 
     const unsigned int n_most =
       std::min<types::global_dof_index>(n_free_ - spectrum.n_below,
                                         n_free_ - block_size);
-    for (unsigned int n_sought = std::min(n + n_extra, n_most);;
-         n_sought              = std::min(2 * n_sought, n_most))
+    unsigned int n_sought = std::min(n + n_extra, n_most);
+    for (bool is_complete = false; !is_complete;
+         n_sought         = std::min(2 * n_sought, n_most))
       {
-                     count_below(shift);
-                     add_pairs(search(n_sought, true, spectrum.modes),
+                count_below(shift);
+                add_pairs(search(n_sought, true, spectrum.modes),
                   shift,
                   {shift, infinity},
                   spectrum);
-                     const auto &values = spectrum.values;
-                     if (values.empty())
+                if (spectrum.values.empty())
           return spectrum;
-        // The first gap above what is wanted
-                     unsigned int k = std::min<std::size_t>(n, values.size());
-                     while (k < values.size() &&
-               values[k] - values[k - 1] <=
-                 tolerance *
-                   std::max(std::abs(values[k]), std::abs(values[k - 1])))
-          ++k;
-        if (k < values.size())
-          {
-                         complete(shift, middle_of_gap(values, k), spectrum);
-                         break;
-          }
-        if (values.size() >= n_most || values.size() < n)
-          {
-                         // There are no more.
-            complete(shift,
-                     values.back() + 1e-3 * std::abs(values.back()),
-                     spectrum);
-            break;
-          }
+        const auto place =
+                  place_to_count(spectrum.values, n, n_most, tolerance);
+                is_complete = place.has_value();
+                if (is_complete)
+          complete(shift, *place, spectrum);
       }
     const unsigned int n_kept =
       std::lower_bound(spectrum.values.begin(),

@@ -38,12 +38,13 @@ namespace Nacre
                            "force'. 'Load factor' must not vanish there."));
   }
 
-  ModeAnalysis::Modes
-  BucklingAnalysis::find_modes(DiscreteShell   &shell,
-                               const Prestress &prestress) const
+  void
+  BucklingAnalysis::assemble(DiscreteShell   &shell,
+                             const Prestress &prestress,
+                             Matrix          &K,
+                             Matrix          &G,
+                             Modes           &modes) const
   {
-    Modes    modes;
-    Matrix   K, G, fixed;
     CpuTimer timer(communicator_);
     prestress.assemble_stiffness(K);
     modes.assembly += timer.lap();
@@ -58,6 +59,7 @@ namespace Nacre
         // K + G(0) + lambda (G(1) - G(0)); G holds -G(1) so far.
         const Vector start = prestress.solve(K, 0., shell.solver());
         timer.lap();
+        Matrix fixed;
         fixed.reinit(G);
         fixed = 0.;
         prestress.add(start, 0., 1., fixed);
@@ -70,6 +72,15 @@ namespace Nacre
                            "are the same, so that nothing is left to scale; "
                            "what depends on t is scaled by the load factors "
                            "that are sought."));
+  }
+
+  ModeAnalysis::Modes
+  BucklingAnalysis::find_modes(DiscreteShell   &shell,
+                               const Prestress &prestress) const
+  {
+    Modes  modes;
+    Matrix K, G;
+    assemble(shell, prestress, K, G, modes);
     Eigenproblem problem(K,
                          G,
                          false,
@@ -82,8 +93,6 @@ namespace Nacre
     const FactorSign sign = problem_.modes.sign;
     if (sign != FactorSign::negative)
       add_modes(problem, 1., modes);
-    modes.n_factorisations = problem.n_factorisations();
-    modes.n_substitutions  = problem.n_substitutions();
     if (sign != FactorSign::positive)
       {
         G *= -1.;
@@ -95,6 +104,15 @@ namespace Nacre
         modes.n_factorisations += reversed.n_factorisations();
         modes.n_substitutions += reversed.n_substitutions();
       }
+    modes.n_factorisations += problem.n_factorisations();
+    modes.n_substitutions += problem.n_substitutions();
+    sort_by_size(modes);
+    return modes;
+  }
+
+  void
+  BucklingAnalysis::sort_by_size(Modes &modes) const
+  {
     std::vector<unsigned int> order(modes.vectors.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) {
@@ -105,7 +123,6 @@ namespace Nacre
     modes.vectors               = reordered(modes.vectors, order);
     modes.values.values         = reordered(modes.values.values, order);
     modes.values.multiplicities = reordered(modes.values.multiplicities, order);
-    return modes;
   }
 
   void

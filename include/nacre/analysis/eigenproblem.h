@@ -71,7 +71,8 @@ namespace Nacre
     /**
      * The @p n_wanted lowest eigenvalues above @p shift, or fewer if there are
      * no more, and all up to the next gap that is wider than the relative
-     * @p tolerance; maybe some more. Throws if K - shift M is singular, or if some
+     * @p tolerance; maybe some more. Throws if K - shift M is singular, or if
+     * some
      * can't be found. If only K is definite the shift isn't negative.
      * @param upper if given, those below only
      */
@@ -120,6 +121,16 @@ namespace Nacre
               const double                     shift,
               const std::pair<double, double> &interval,
               Spectrum                        &spectrum);
+
+    /**
+     * A shift in the first gap above @p n_wanted of the ascending @p values,
+     * or above all if there can't be more; none if there is no gap yet.
+     */
+    static std::optional<double>
+    place_to_count(const std::vector<double> &values,
+                   const unsigned int         n_wanted,
+                   const unsigned int         n_most,
+                   const double               tolerance);
 
     /** Count up to @p top, and seek what the search has missed. */
     void

@@ -42,6 +42,21 @@ namespace Nacre
     }
 
   private:
+    /**
+     * K + G_0, and minus G, which is the mass of the eigenproblem; and the
+     * linear state at t = 1.
+     */
+    void
+    assemble(DiscreteShell   &shell,
+             const Prestress &prestress,
+             Matrix          &K,
+             Matrix          &G,
+             Modes           &modes) const;
+
+    /** By the size of the factors, as many as are wanted. */
+    void
+    sort_by_size(Modes &modes) const;
+
     /** Add the modes of factors of one @p sign of G, and how complete. */
     void
     add_modes(Eigenproblem &problem, const double sign, Modes &modes) const;
