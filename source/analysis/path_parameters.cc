@@ -53,7 +53,9 @@ namespace Nacre
       {AnalysisType::quasi_static, "static"},
       {AnalysisType::relaxation, "relaxation"},
       {AnalysisType::arc_length, "arc length"},
-      {AnalysisType::dynamic, "dynamic"}};
+      {AnalysisType::dynamic, "dynamic"},
+      {AnalysisType::buckling, "buckling"},
+      {AnalysisType::vibration, "vibration"}};
     return table;
   }
 
@@ -85,7 +87,10 @@ namespace Nacre
                   "Newton's method; relaxation: the same, and by dynamic "
                   "relaxation where the path is unstable; arc length: along "
                   "the path, with a time that rises and falls; dynamic: motion "
-                  "in time. All but linear take the kinematics of "
+                  "in time; buckling: load factors at which the linear state "
+                  "loses its stability, with their modes; vibration: natural "
+                  "frequencies and modes. static, relaxation, arc length and "
+                  "dynamic take the kinematics of "
                   "'Discretization/Kinematics'.");
     add_parameter("Start from",
                   steps_.start_from,
@@ -282,8 +287,10 @@ namespace Nacre
                              " doesn't use it; choose 'Type = dynamic', or "
                              "leave it out."));
     path.start_from = Text::trim(path.start_from);
-    AssertThrow(!path.is_linear() || path.start_from.empty(),
-                ExcMessage("Analysis/Start from: Type = linear solves from "
-                           "the undeformed shell; choose another Type."));
+    AssertThrow((!path.is_linear() && !seeks_modes(path.type)) ||
+                  path.start_from.empty(),
+                ExcMessage("Analysis/Start from: Type = " + name_of(path.type) +
+                           " solves from the undeformed shell; choose another "
+                           "Type."));
   }
 } // namespace Nacre

@@ -5,6 +5,7 @@
 #include <nacre/forms/mass_terms.h>
 #include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
+#include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
@@ -439,6 +440,13 @@ namespace Nacre
                     ExcMessage(phrase.where + ": '" + phrase.text +
                                "' after the kind of quantity is not "
                                "understood."));
+      if (const auto mode = parse_mode_quantity(kind, phrase.where))
+        {
+          quantity.evaluate = [mode](const SolvedShell &shell) {
+            return evaluate_mode_quantity(shell.modes, *mode);
+          };
+          return;
+        }
       for (const auto &[name, ply_kind] : ply_kinds())
         if (phrase.take(name))
           return parse_ply(quantity, phrase, ply_kind, constants);
@@ -506,7 +514,9 @@ namespace Nacre
       "external work, work "
       "of prescribed motion, dissipation (by mass damping), energy balance "
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
-      "the origin. Units: those of the quantity.");
+      "the origin; in buckling load factor NUMBER, in vibration omega NUMBER "
+      "(of time) and frequency NUMBER, omega/(2 pi), in both multiplicity "
+      "NUMBER, modes counted from 1. Units: those of the quantity.");
     add_parameter("Balance about",
                   balance_text_,
                   "A point '(x, y, z)': the resultants of loads and reactions "
@@ -520,6 +530,8 @@ namespace Nacre
     std::vector<std::string> names = {"displacement", "reaction", "moment"};
     for (const auto &kind : ply_kinds())
       names.push_back(kind.first);
+    for (const auto &name : mode_quantity_names())
+      names.push_back(name);
     for (const auto &simple : simple_kinds())
       names.push_back(simple.name);
     return names;

@@ -2,8 +2,10 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/simulation/analysis.h>
+#include <nacre/simulation/buckling_analysis.h>
 #include <nacre/simulation/linear_analysis.h>
 #include <nacre/simulation/path_run.h>
+#include <nacre/simulation/vibration_analysis.h>
 
 namespace Nacre
 {
@@ -18,6 +20,10 @@ namespace Nacre
                                               problem,
                                               adaptive,
                                               log);
+    if (problem.path.type == AnalysisType::buckling)
+      return std::make_unique<BucklingAnalysis>(communicator, problem, log);
+    if (problem.path.type == AnalysisType::vibration)
+      return std::make_unique<VibrationAnalysis>(communicator, problem, log);
     return std::make_unique<PathRun>(communicator, problem, adaptive, log);
   }
 } // namespace Nacre

@@ -60,7 +60,7 @@ namespace Nacre
     , operator_(discretization_, problem.model)
   {
     // Inertia holds a shell as well.
-    if (!problem.path.is_dynamic())
+    if (!problem.path.has_inertia())
       check_supports(conditions_);
     warn_of_penalty(log);
     solver_ = make_solver(n_right_hand_sides, log);
@@ -104,7 +104,7 @@ namespace Nacre
     task.memory   = free_memory(discretization_.communicator());
 
     ChosenSolver::Factory make_multigrid;
-    if (can_coarsen && !problem_.path.is_dynamic() &&
+    if (can_coarsen && !problem_.path.needs_direct_solver() &&
         (chosen.type == SolverType::multigrid ||
          (chosen.type == SolverType::automatic && prefers_multigrid(task))))
       make_multigrid = [&]() {

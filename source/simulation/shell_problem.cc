@@ -133,6 +133,7 @@ namespace Nacre
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);
+    problem.modes          = modes_.make(problem.path.type, constants);
     if (!problem.path.is_linear())
       model.load_factor = std::move(load_factor);
     problem.n_refinements = shell_case.n_refinements;
@@ -179,10 +180,26 @@ namespace Nacre
                            "'symmetric', its symmetric part, which is what "
                            "'consistent' has been so far."));
     AssertThrow(problem.solver.type != SolverType::multigrid ||
-                  !problem.path.is_dynamic(),
-                ExcMessage("Linear solver/Solver: 'multigrid' doesn't know the "
-                           "inertia of a dynamic analysis; choose auto or "
-                           "direct."));
+                  !problem.path.needs_direct_solver(),
+                ExcMessage(
+                  seeks_modes(problem.path.type) ?
+                    "Linear solver/Solver: 'multigrid' has no factors, which "
+                    "'Analysis/Type = " +
+                      name_of(problem.path.type) +
+                      "' needs; choose auto or direct." :
+                    std::string("Linear solver/Solver: 'multigrid' doesn't "
+                                "know the inertia of a dynamic analysis; "
+                                "choose auto or direct.")));
+    AssertThrow(!seeks_modes(problem.path.type) ||
+                  (linear_kinematics &&
+                   options.edge_form == EdgeForm::rotation_jump),
+                ExcMessage("Discretization/Kinematics, Edge form: "
+                           "'Analysis/Type = " +
+                           name_of(problem.path.type) +
+                           "' linearises about the undeformed shell; choose "
+                           "'Kinematics = linear' and 'Edge form = rotation "
+                           "jump', and by 'Analysis/Prestress' what the state "
+                           "before adds."));
     AssertThrow(problem.path.type != AnalysisType::arc_length ||
                   options.tangent != TangentType::frozen,
                 ExcMessage("Discretization/Tangent: 'frozen' converges slowly, "

@@ -28,10 +28,21 @@ namespace Nacre
     /** Equilibria along a path whose load factor may fall. */
     arc_length,
     /** Motion in time. */
-    dynamic
+    dynamic,
+    /** Load factors at which the linear state is no longer stable. */
+    buckling,
+    /** Natural frequencies. */
+    vibration
   };
 
   const Selection<AnalysisType> &selection(AnalysisType);
+
+  /** Whether eigenvalues and modes are sought. */
+  inline bool
+  seeks_modes(const AnalysisType type)
+  {
+    return type == AnalysisType::buckling || type == AnalysisType::vibration;
+  }
 
   /** When increments are shortened. */
   enum class LineSearch
@@ -90,11 +101,25 @@ namespace Nacre
       return type == AnalysisType::linear;
     }
 
-    /** Whether the shell has inertia. */
+    /** Whether the shell moves in time. */
     bool
     is_dynamic() const
     {
       return type == AnalysisType::dynamic;
+    }
+
+    /** Whether inertia holds a shell that no support holds. */
+    bool
+    has_inertia() const
+    {
+      return is_dynamic() || type == AnalysisType::vibration;
+    }
+
+    /** Whether only factors of the matrix will do. */
+    bool
+    needs_direct_solver() const
+    {
+      return is_dynamic() || seeks_modes(type);
     }
   };
 

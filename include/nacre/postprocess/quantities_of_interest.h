@@ -24,6 +24,7 @@ namespace Nacre
   class MassTerms;
   class Midsurface;
   class ShellOperator;
+  struct ModeValues;
   struct ShellActions;
 
   /** A solved shell, as the quantities see it. */
@@ -48,6 +49,8 @@ namespace Nacre
     const TrilinosWrappers::MPI::Vector *velocity = nullptr;
     EnergyBalance                        balance  = {};
     //@}
+    /** Of buckling and vibration; else null. */
+    const ModeValues *modes = nullptr;
   };
 
   /**

@@ -4,6 +4,7 @@
 #ifndef nacre_simulation_shell_problem_h
 #define nacre_simulation_shell_problem_h
 
+#include <nacre/analysis/mode_parameters.h>
 #include <nacre/analysis/path_parameters.h>
 #include <nacre/mechanics/section_law.h>
 #include <nacre/problem/shell_model.h>
@@ -43,6 +44,7 @@ namespace Nacre
     ShellModel       model;
     unsigned int     n_refinements = 0;
     PathParameters   path          = {};
+    ModeOptions      modes         = {};
     SolverParameters solver        = {};
     AssemblyMethod   assembly      = AssemblyMethod::fast;
     /** Constants of the file and of the section, for more expressions. */
@@ -126,6 +128,7 @@ namespace Nacre
     LoadParameters              loads_;
     ExactSolutionParameters     exact_solution_;
     AnalysisParameters          analysis_;
+    ModeParameters              modes_;
     LinearSolverParameters      solver_;
     DiscretizationParameters    discretization_;
   };

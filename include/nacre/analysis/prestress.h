@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_analysis_prestress_h
+#define nacre_analysis_prestress_h
+
+#include <nacre/analysis/mode_parameters.h>
+#include <nacre/forms/shell_operator.h>
+#include <nacre/problem/shell_model.h>
+#include <nacre/solvers/linear_solver.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+namespace Nacre
+{
+  /**
+   * The stiffness of a shell in a linear state: K + G, where G is what the
+   * state adds. Matrices have the constraints eliminated, which are those of
+   * the eigenproblem, homogeneous ones.
+   */
+  class Prestress
+  {
+  public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+    using Matrix = TrilinosWrappers::SparseMatrix;
+
+    /** All must live as long; @p shell_operator that of @p model. */
+    Prestress(const Discretization &discretization,
+              const ShellOperator  &shell_operator,
+              const ShellModel     &model,
+              const ModeOptions    &options);
+
+    /** Hanging nodes and supports, with zero for prescribed displacements. */
+    const AffineConstraints<double> &
+    constraints() const
+    {
+      return constraints_;
+    }
+
+    /** K without any load. */
+    void
+    assemble_stiffness(Matrix &K) const;
+
+    /** Whether loads, prescribed values or membrane forces act at @p time. */
+    bool
+    acts(const double time) const;
+
+    /**
+     * The linear solution at @p time, ghosted; zero if none is needed.
+     * @param solver which is prepared for @p K here
+     */
+    Vector
+    solve(const Matrix &K, const double time, LinearSolver &solver) const;
+
+    /**
+     * Add factor G of the state @p u at @p time to the @p matrix, and clear
+     * the rows of constrained dofs.
+     */
+    void
+    add(const Vector &u,
+        const double  time,
+        const double  factor,
+        Matrix       &matrix) const;
+
+  private:
+    Vector
+    ghosted(const Vector &owned) const;
+
+    /** Add factor times the load stiffness at @p instant. */
+    void
+    add_load_stiffness(const Instant &instant,
+                       const double   factor,
+                       Matrix        &matrix) const;
+
+    /** Add factor times G of options_.membrane_force. */
+    void
+    add_membrane_force(const Instant &instant,
+                       const double   factor,
+                       Matrix        &matrix) const;
+
+    /** Add factor times the derivative of the tangent along @p u. */
+    void
+    add_tangent_derivative(const Vector &u,
+                           const double  time,
+                           const double  factor,
+                           Matrix       &matrix) const;
+
+    /** Largest |u,a a^a| (none): strains and rotations are of this size. */
+    double
+    largest_gradient(const Vector &u) const;
+
+    /** Remove what stands in rows of constrained dofs. */
+    void
+    clear_constrained(Matrix &matrix) const;
+
+    const Discretization     &discretization_;
+    const ShellOperator      &operator_;
+    const ShellModel         &model_;
+    const ModeOptions        &options_;
+    AffineConstraints<double> constraints_;
+    IndexSet                  relevant_dofs_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_simulation_connected_parts_h
+#define nacre_simulation_connected_parts_h
+
+#include <nacre/forms/mass_terms.h>
+#include <nacre/simulation/discrete_shell.h>
+
+#include <vector>
+
+namespace Nacre
+{
+  /** Number of parts of the mesh that share no vertex. */
+  unsigned int
+  n_parts(const Discretization &discretization);
+
+  /**
+   * Which of the @p modes are rigid motions of the parts of the mesh: all but
+   * 1e-6 of the kinetic energy is that of such motions, and the strain energy
+   * vanishes but for round-off. Collective.
+   * @param mass of the shell @param K its stiffness
+   * @param constraints homogeneous
+   * @param modes without ghosts, constrained entries unset
+   */
+  std::vector<bool>
+  rigid_shares(const DiscreteShell                              &shell,
+               const MassTerms                                  &mass,
+               const TrilinosWrappers::SparseMatrix             &K,
+               const AffineConstraints<double>                  &constraints,
+               const std::vector<TrilinosWrappers::MPI::Vector> &modes);
+} // namespace Nacre
+
+#endif
