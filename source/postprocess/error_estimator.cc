@@ -6,8 +6,7 @@
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
 #include <nacre/postprocess/stress_polynomials.h>
-#include <nacre/problem/boundary_conditions.h>
-#include <nacre/problem/loads.h>
+#include <nacre/problem/shell_model.h>
 
 #include <cmath>
 
@@ -86,8 +85,9 @@ namespace Nacre
       , discretization_(estimator.discretization_)
       , fields_(fields)
       , stresses_(discretization_,
-                  estimator.section_,
-                  recovers_tied_strain(estimator.kinematics_.membrane_strain),
+                  estimator.model_.section,
+                  recovers_tied_strain(
+                    estimator.model_.kinematics.membrane_strain),
                   displacements(fields))
       , weights_(discretization_.triangulation().n_active_cells())
       , cell_values_(discretization_,
@@ -133,8 +133,8 @@ namespace Nacre
             values.reinit_frames(cell);
             weights_[cell->active_cell_index()] =
               error_weight(values.frame(0),
-                           estimator_.section_.stiffness(values.frame(0),
-                                                         values.point(0)),
+                           estimator_.model_.section.stiffness(values.frame(0),
+                                                               values.point(0)),
                            resolved_wave_number(discretization_.degree()));
           }
     }
@@ -182,8 +182,8 @@ namespace Nacre
     add_cell(const Iterator &cell)
     {
       cell_values_.reinit_frames(cell);
-      const auto &section = estimator_.section_;
-      const auto &loads   = estimator_.loads_;
+      const auto &section = estimator_.model_.section;
+      const auto &loads   = estimator_.model_.loads;
       const auto &W       = weight_of(cell);
       for (unsigned int q = 0; q < cell_values_.n_points(); ++q)
         {
@@ -350,7 +350,7 @@ namespace Nacre
       std::fill(rotations_.begin(), rotations_.end(), 0.);
       for (unsigned int side = 0; side < edge_.n_sides(); ++side)
         {
-          side_.reinit(edge_, side, q, estimator_.section_);
+          side_.reinit(edge_, side, q, estimator_.model_.section);
           stiffness_ += side_.stiffness / edge_.n_sides();
           const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
           for (unsigned int f = 0; f < fields_.size(); ++f)
@@ -370,12 +370,11 @@ namespace Nacre
     void
     apply_boundary_data(const types::boundary_id id, const unsigned int q)
     {
-      const auto &loads = estimator_.loads_;
-      const auto  edge  = estimator_.boundary_conditions_.edges().find(id);
-      const bool  rotates =
-        (edge != estimator_.boundary_conditions_.edges().end() &&
-         edge->second.rotation != nullptr);
-      const auto point = edge_.point(q);
+      const auto &loads   = estimator_.model_.loads;
+      const auto  edge    = estimator_.model_.supports.edges().find(id);
+      const bool  rotates = (edge != estimator_.model_.supports.edges().end() &&
+                            edge->second.rotation != nullptr);
+      const auto  point   = edge_.point(q);
       for (unsigned int f = 0; f < fields_.size(); ++f)
         {
           if (fields_[f].has_data)
@@ -466,19 +465,13 @@ namespace Nacre
   };
 
 
-  ErrorEstimator::ErrorEstimator(const Discretization     &discretization,
-                                 const SectionLaw         &section,
-                                 const BoundaryConditions &boundary_conditions,
-                                 const Loads              &loads,
-                                 const EdgePenalty        &penalty,
-                                 const KinematicsOptions  &kinematics)
+  ErrorEstimator::ErrorEstimator(const Discretization &discretization,
+                                 const ShellModel     &model,
+                                 const EdgePenalty    &penalty)
     : discretization_(discretization)
-    , section_(section)
-    , boundary_conditions_(boundary_conditions)
-    , loads_(loads)
+    , model_(model)
     , penalty_(penalty)
-    , kinematics_(kinematics)
-    , conditions_(discretization, boundary_conditions)
+    , conditions_(discretization, model.supports)
   {}
 
   ErrorIndicators

@@ -53,6 +53,7 @@ namespace Nacre
         "Analysis/VTU steps",
         "Analysis/Checkpoint steps",
         "Linear solver/",
+        "Output/",
         "Quantities/",
         "Exact solution/"};
       return names;

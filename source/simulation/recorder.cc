@@ -82,8 +82,9 @@ namespace Nacre
   Recorder::check_quantities(const Discretization &mesh) const
   {
     for (const auto &quantity : quantities_.quantities())
-      if (quantity.goal.load)
-        quantity.goal.load(mesh);
+      if (quantity.point)
+        mesh.locate(*quantity.point,
+                    "Quantities/Quantities, '" + quantity.name + "'");
   }
 
   ResultsTable::Row
@@ -141,10 +142,7 @@ namespace Nacre
     if (!options_.write_vtu)
       return;
     const unsigned int counter = table_.rows().size() - 1;
-    vtu_output_.write(shell.discretization,
-                      shell.section,
-                      shell.kinematics,
-                      shell.displacement,
+    vtu_output_.write(shell,
                       options_.folder,
                       options_.name,
                       {counter, double(counter), names_.label + ending},

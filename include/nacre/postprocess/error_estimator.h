@@ -6,7 +6,6 @@
 
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/edge_penalty.h>
-#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -15,8 +14,7 @@
 
 namespace Nacre
 {
-  class BoundaryConditions;
-  class Loads;
+  struct ShellModel;
 
   /** The residuals that an estimate is made of. */
   enum class Residual
@@ -110,12 +108,9 @@ namespace Nacre
     };
 
     /** Everything must stay alive; collective. */
-    ErrorEstimator(const Discretization     &discretization,
-                   const SectionLaw         &section,
-                   const BoundaryConditions &boundary_conditions,
-                   const Loads              &loads,
-                   const EdgePenalty        &penalty,
-                   const KinematicsOptions  &kinematics);
+    ErrorEstimator(const Discretization &discretization,
+                   const ShellModel     &model,
+                   const EdgePenalty    &penalty);
 
     /** eta_K^2 of one field; collective. */
     ErrorIndicators
@@ -129,11 +124,8 @@ namespace Nacre
     class Assembly;
 
     const Discretization        &discretization_;
-    const SectionLaw            &section_;
-    const BoundaryConditions    &boundary_conditions_;
-    const Loads                 &loads_;
+    const ShellModel            &model_;
     const EdgePenalty           &penalty_;
-    const KinematicsOptions      kinematics_;
     const DisplacementConditions conditions_;
   };
 } // namespace Nacre

@@ -90,12 +90,11 @@ namespace Nacre
     goal() const;
 
     /**
-     * The error of a solution of a linear analysis of @p model; collective.
+     * The error of a solution of a linear analysis; collective.
      * @param dual the ghosted dual solution of goal(); unused without
      */
     ErrorEstimate
-    estimate(const ShellModel                    &model,
-             const SolvedShell                   &solution,
+    estimate(const SolvedShell                   &solution,
              const TrilinosWrappers::MPI::Vector &dual) const;
 
     /** Columns of the table that tell of the estimate. */
