@@ -40,9 +40,9 @@ namespace Nacre
   }
 
   double
-  PointResults::von_mises(const Face face) const
+  PointResults::von_mises(const Tensor3 &S) const
   {
-    const PlaneTensor s     = in_axes(stress[static_cast<unsigned int>(face)]);
+    const PlaneTensor s     = in_axes(S);
     const double      trace = s[0][0] + s[1][1];
     const double      det   = s[0][0] * s[1][1] - s[0][1] * s[0][1];
     return std::sqrt(std::max(trace * trace - 3. * det, 0.));
@@ -90,12 +90,42 @@ namespace Nacre
       ShellStrain::resultant_tensor(frame, answer.membrane_force);
     r.moments = axes.side * ShellStrain::resultant_tensor(frame, answer.moment);
     for (unsigned int k = 0; k < n_faces; ++k)
-      r.stress[k] = ShellStrain::resultant_tensor(
-        frame,
-        section.stress(eps, rho, axes.side * (k - 1.), frame, point));
+      r.stress[k] = stress(q, k - 1.);
     if (shear_)
       r.transverse_shear = axes.side * shear_->value(q);
     r.layers = section.layers(eps, rho, frame, point);
+    for (LayerState &layer : r.layers)
+      for (double &height : layer.height)
+        height *= axes.side;
     return r;
+  }
+
+  PointResults
+  CellResults::with_layers(const unsigned int q) const
+  {
+    PointResults r = at(q);
+    if (r.layers.empty())
+      {
+        const auto   point = strains_.values().point(q);
+        const double h     = state_.model.section.thickness(point);
+        r.layers.resize(1);
+        r.layers[0].height = {{-0.5 * h, 0.5 * h}};
+      }
+    return r;
+  }
+
+  Tensor<2, spacedim>
+  CellResults::stress(const unsigned int q, const double side) const
+  {
+    const auto &frame = strains_.values().frame(q);
+    const auto  point = strains_.values().point(q);
+    const auto  axes  = state_.model.result_axes.at(frame, point);
+    return ShellStrain::resultant_tensor(
+      frame,
+      state_.model.section.stress(strains_.membrane(q),
+                                  strains_.bending(q),
+                                  axes.side * side,
+                                  frame,
+                                  point));
   }
 } // namespace Nacre

@@ -9,6 +9,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -48,7 +49,8 @@ namespace Nacre
     /**
      * Polynomials in two coordinates (x, y) that are orthonormal on given
      * points: monomials of ascending degree, made orthogonal one after the
-     * other. Those that the points can hardly tell from the ones before are
+     * other. The points are at distances of 1 or so. Those that the points can
+     * hardly tell from the ones before are
      * left out, as are those of a high degree across a strip of one cell.
      */
     class OrthogonalPolynomials
@@ -122,7 +124,8 @@ namespace Nacre
                 value[q] -= part * values_[j][q];
             }
         const double norm = std::sqrt(product(value));
-        if (norm <= 0.02 * whole)
+        // Of the coordinates' unit too: a row of points tells nothing across.
+        if (norm <= 0.02 * std::max(whole, std::sqrt(1. * points.size())))
           return;
         for (double &v : value)
           v /= norm;
@@ -191,6 +194,7 @@ namespace Nacre
       }
     for (unsigned int q = n; q < sample_points_.size(); ++q)
       samples.normals.push_back(values.frame(q).t0);
+    samples.middle = values.point(sample_points_.size() - 1);
     return samples;
   }
 
@@ -231,21 +235,25 @@ namespace Nacre
   {
     points_.reinit_frames(cell);
     const auto               members = patch(cell);
-    const Point<spacedim>    origin  = cell->center();
+    const Point<spacedim>    origin  = samples(cell).middle;
     const auto               n       = samples(cell).normals.back();
-    const double             size    = cell->diameter();
     std::array<Vector3, dim> e;
     e[0] = points_.frame(0).a_cov[0];
     e[0] -= (e[0] * n) * n;
     e[0] /= e[0].norm();
     e[1] = cross_product_3d(n, e[0]);
 
+    // The cell is of the size 1 in both coordinates.
+    std::array<double, dim> size{};
+    for (const auto &x : state_.discretization.geometry_nodes(cell))
+      for (unsigned int i = 0; i < dim; ++i)
+        size[i] = std::max(size[i], std::abs((x - origin) * e[i]));
+    const auto place = [&](const Point<spacedim> &x) {
+      const Vector3 d = x - origin;
+      return Point<2>(d * e[0] / size[0], d * e[1] / size[1]);
+    };
     std::vector<Point<2>> places;
     std::vector<Moment>   moments;
-    const auto            place = [&](const Point<spacedim> &x) {
-      const Vector3 d = (x - origin) / size;
-      return Point<2>(d * e[0], d * e[1]);
-    };
     for (const auto &member : members)
       {
         const Samples &from = samples(member.cell);
@@ -270,9 +278,8 @@ namespace Nacre
           for (unsigned int i = 0; i < polynomials.size(); ++i)
             {
               const double derivative =
-                (gradients[i][0] * (e[0] * frame.a_cov[b]) +
-                 gradients[i][1] * (e[1] * frame.a_cov[b])) /
-                size;
+                gradients[i][0] * (e[0] * frame.a_cov[b]) / size[0] +
+                gradients[i][1] * (e[1] * frame.a_cov[b]) / size[1];
               divergence += derivative * (coefficients[i] * frame.a_con[b]);
             }
         values_[q] = divergence - (divergence * frame.t0) * frame.t0;

@@ -5,6 +5,7 @@
 #include <nacre/base/output_file.h>
 #include <nacre/postprocess/hdf5_output.h>
 #include <nacre/postprocess/point_results.h>
+#include <nacre/postprocess/thick_fields.h>
 #include <nacre/postprocess/vtu_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <sstream>
+#include <type_traits>
 
 namespace Nacre
 {
@@ -279,12 +281,16 @@ namespace Nacre
      * parallel file system is needed.
      * @return the file that holds or lists all cells
      */
+    template <typename Fields>
     std::string
-    write_vtu_files(const ShellFields &fields,
+    write_vtu_files(const Fields      &fields,
                     const Groups      &groups,
                     const std::string &folder,
                     const std::string &base)
     {
+      // Volume cells are linear.
+      DataOutBase::VtkFlags flags    = output_flags();
+      flags.write_higher_order_cells = std::is_same_v<Fields, ShellFields>;
       std::map<unsigned int, std::string> mine;
       if (groups.n_cells[groups.rank] > 0)
         {
@@ -292,7 +298,7 @@ namespace Nacre
           DataOutBase::write_vtu_main(fields.get_patches(),
                                       fields.get_dataset_names(),
                                       fields.get_nonscalar_data_ranges(),
-                                      output_flags(),
+                                      flags,
                                       piece);
           mine[groups.rank - groups.rank % groups.size] = piece.str();
         }
@@ -303,7 +309,7 @@ namespace Nacre
           return;
         const auto file = groups.file(base, groups.rank / groups.size);
         write_file(path_of(folder, file), [&](std::ostream &out) {
-          DataOutBase::write_vtu_header(out, output_flags());
+          DataOutBase::write_vtu_header(out, flags);
           for (const auto &piece : pieces)
             out << piece.second;
           DataOutBase::write_vtu_footer(out);
@@ -323,6 +329,22 @@ namespace Nacre
         });
       });
       return record;
+    }
+
+    /** The list of all times. */
+    void
+    write_pvd(const MPI_Comm      communicator,
+              const std::string  &base,
+              const FieldRecords &records)
+    {
+      run_on_root(communicator, [&] {
+        std::vector<std::pair<double, std::string>> times;
+        for (const auto &record : records)
+          times.push_back(record.second);
+        write_file(base + ".pvd", [&](std::ostream &out) {
+          DataOutBase::write_pvd_record(out, times);
+        });
+      });
     }
   } // namespace
 
@@ -439,6 +461,18 @@ namespace Nacre
                     const FieldRecords &written)
   {
     records_[path_of(folder, name)] = written;
+    if (!options_.thick)
+      return;
+    // Of the bodies' files those that are there.
+    const std::string base = name + "_thick";
+    for (const auto &[counter, record] : written)
+      for (const auto *const ending : {".vtu", ".pvtu"})
+        {
+          const std::string file =
+            base + "_" + std::to_string(counter) + ending;
+          if (std::filesystem::exists(path_of(folder, file)))
+            records_[path_of(folder, base)][counter] = {record.first, file};
+        }
   }
 
 
@@ -474,19 +508,36 @@ namespace Nacre
                                 Groups(discretization, options_.ranks_per_file),
                                 folder,
                                 base)};
+    if (options_.thick)
+      write_thick(state, folder, name, entry);
+    if (!is_hdf5)
+      return write_pvd(communicator, all, records);
     run_on_root(communicator, [&] {
-      if (is_hdf5)
-        {
-          write_file(all + ".xdmf",
-                     [&](std::ostream &out) { write_xdmf(out, records); });
-          return;
-        }
-      std::vector<std::pair<double, std::string>> times;
-      for (const auto &record : records)
-        times.push_back(record.second);
-      write_file(all + ".pvd", [&](std::ostream &out) {
-        DataOutBase::write_pvd_record(out, times);
-      });
+      write_file(all + ".xdmf",
+                 [&](std::ostream &out) { write_xdmf(out, records); });
     });
+  }
+
+  void
+  VtuOutput::write_thick(const ShellState  &state,
+                         const std::string &folder,
+                         const std::string &name,
+                         const Entry       &entry)
+  {
+    const MPI_Comm communicator = state.discretization.communicator();
+    std::unique_ptr<ThickFields> fields;
+    run_on_all_ranks(communicator, [&] {
+      fields = std::make_unique<ThickFields>(state, options_.n_subdivisions);
+    });
+    const std::string base    = name + "_thick";
+    const std::string all     = path_of(folder, base);
+    FieldRecords     &records = records_[all];
+    records[entry.counter]    = {entry.time,
+                                 write_vtu_files(*fields,
+                                              Groups(state.discretization,
+                                                     options_.ranks_per_file),
+                                              folder,
+                                              base + "_" + entry.label)};
+    write_pvd(communicator, all, records);
   }
 } // namespace Nacre

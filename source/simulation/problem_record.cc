@@ -35,6 +35,7 @@ namespace Nacre
         "Study/Output format",
         "Study/Ranks per VTU file",
         "Study/Output subdivisions",
+        "Study/Thick output",
         "Study/Report seconds",
         mesh_file_name,
         "Discretization/Assembly",

@@ -65,7 +65,7 @@ namespace Nacre
       std::error_code not_there;
       if (!keeps_results)
         for (const auto *const ending :
-             {".csv", ".txt", ".tex", ".pvd", ".xdmf"})
+             {".csv", ".txt", ".tex", ".pvd", "_thick.pvd", ".xdmf"})
           std::filesystem::remove(options_.file(ending), not_there);
       write_used_parameters(options_.file(".used.prm"));
     });

@@ -80,7 +80,7 @@ namespace Nacre
     Vector3 transverse_shear;
     /** w per undeformed area (force/length). */
     double energy_density = 0.;
-    /** Of laminates, bottom to top of the stack. */
+    /** Of laminates, bottom to top of the stack; heights along the normal. */
     std::vector<LayerState> layers;
 
     /** e_i . T e_j of a tensor of the tangent plane. */
@@ -95,9 +95,16 @@ namespace Nacre
     std::array<Principal, dim>
     principal(const Tensor3 &T) const;
 
-    /** sqrt(s11^2 - s11 s22 + s22^2 + 3 s12^2) at a face. */
+    /** sqrt(s11^2 - s11 s22 + s22^2 + 3 s12^2) of a plane stress. */
     double
-    von_mises(const Face face) const;
+    von_mises(const Tensor3 &S) const;
+
+    /** The same at a face. */
+    double
+    von_mises(const Face face) const
+    {
+      return von_mises(stress[static_cast<unsigned int>(face)]);
+    }
   };
 
   /** PointResults at the same points of one cell after the other. */
@@ -126,6 +133,20 @@ namespace Nacre
     /** Throws where ShellModel::result_axes has no direction. */
     PointResults
     at(const unsigned int q) const;
+
+    /**
+     * The same, where a homogeneous section has a single layer; of it only the
+     * heights are filled in.
+     */
+    PointResults
+    with_layers(const unsigned int q) const;
+
+    /**
+     * The stress at @p side h/2 from the middle of the section along the
+     * normal of the results, a tensor of space (force/length^2).
+     */
+    Tensor<2, spacedim>
+    stress(const unsigned int q, const double side) const;
 
   private:
     const ShellState               state_;

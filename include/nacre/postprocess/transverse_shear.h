@@ -62,6 +62,7 @@ namespace Nacre
     {
       std::vector<Point<spacedim>> positions;
       std::vector<Moment>          moments;
+      Point<spacedim>              middle;
       /** At the middles of the faces, and at that of the cell. */
       std::vector<Vector3> normals;
     };

@@ -110,7 +110,9 @@ namespace Nacre
    * each group of ranks that owns cells, and `NAME_LABEL.pvtu` | `NAME.pvd` |
    * | hdf5 | linear, p x p for each | `NAME_LABEL.h5` | `NAME.xdmf` |
    *
-   * The label tells what a file holds; by default it is the counter.
+   * The label tells what a file holds; by default it is the counter. The
+   * files of ThickFields are always .vtu, `NAME_thick_LABEL.vtu`, listed by
+   * `NAME_thick.pvd`.
    *
    * In ParaView open the list and use "Warp By Vector" with the displacement.
    */
@@ -124,6 +126,8 @@ namespace Nacre
       unsigned int ranks_per_file = 16;
       /** Of each quadrilateral's edges; 0: the degree p. */
       unsigned int n_subdivisions = 0;
+      /** Whether ThickFields are written too. */
+      bool thick = false;
     };
 
     VtuOutput() = default;
@@ -178,6 +182,13 @@ namespace Nacre
            const FieldRecords &written);
 
   private:
+    /** The bodies' files, beside those of an entry. */
+    void
+    write_thick(const ShellState  &state,
+                const std::string &folder,
+                const std::string &name,
+                const Entry       &entry);
+
     const Options options_;
     /** By folder and name. */
     std::map<std::string, FieldRecords> records_;
