@@ -98,6 +98,7 @@ namespace Nacre
         for (unsigned int face = 0; face < 2; ++face)
           {
             const double z     = h * heights[face] + offset;
+            state.height[face] = z;
             state.strain[face] = layer.to_ply * (eps + z * kappa);
             state.stress[face] = layer.Q * state.strain[face];
             if (!layer.material.strengths)

@@ -5,6 +5,7 @@
 #include <nacre/mechanics/laminate_section.h>
 #include <nacre/mechanics/ply_stack.h>
 #include <nacre/mechanics/section_regions.h>
+#include <nacre/mechanics/surface_axes.h>
 
 #include <algorithm>
 #include <sstream>
@@ -15,13 +16,6 @@ namespace Nacre
   {
     const std::string parameters = "Section/Laminate/";
 
-    std::string
-    to_text(const Point<3> &point)
-    {
-      return "(" + Text::number(point[0]) + ", " + Text::number(point[1]) +
-             ", " + Text::number(point[2]) + ")";
-    }
-
     double
     checked_thickness(const double       value,
                       const std::string &where,
@@ -29,7 +23,7 @@ namespace Nacre
     {
       AssertThrow(value > 0.,
                   ExcMessage(where + ": " + Text::number(value) +
-                             " at the point " + to_text(point) +
+                             " at the point " + point_text(point) +
                              "; it must be positive."));
       return value;
     }
@@ -111,26 +105,6 @@ namespace Nacre
                               values.at("Yc"),
                               values.at("S")};
       return material;
-    }
-
-    /** Three expressions of x, y, z, or the name of an axis. */
-    VectorExpression
-    read_direction(const std::string &text,
-                   const std::string &where,
-                   const Constants   &constants)
-    {
-      const std::string plain = Text::trim(text);
-      if (plain == "x" || plain == "y" || plain == "z")
-        return VectorExpression(plain == "x" ? "1, 0, 0" :
-                                plain == "y" ? "0, 1, 0" :
-                                               "0, 0, 1",
-                                where,
-                                constants);
-      VectorExpression direction(text, where, constants);
-      AssertThrow(!direction.is_zero(),
-                  ExcMessage(where + ": the direction " + plain +
-                             " has no length."));
-      return direction;
     }
   } // namespace
 
@@ -464,33 +438,18 @@ namespace Nacre
                         const SurfaceFrame<> &frame,
                         const SectionPoint   &point) const
   {
-    const auto &t0 = frame.t0;
-    Axes        result{{}, 1.};
-    if (top_)
-      {
-        const auto   top    = (*top_)(point);
-        const double height = top * t0;
-        AssertThrow(std::abs(height) > 1e-8 * top.norm(),
-                    ExcMessage(parameters + "Top: at the point " +
-                               to_text(point) +
-                               " it is tangent to the surface or zero, so "
-                               "that it names no side of it."));
-        result.side = height > 0. ? 1. : -1.;
-      }
-    const auto direction = layup.direction(point);
-    auto       e1        = direction - (direction * t0) * t0;
-    AssertThrow(e1.norm() > 1e-8 * direction.norm(),
-                ExcMessage(parameters + "Material direction: at the point " +
-                           to_text(point) +
-                           " it is normal to the surface or zero; its "
-                           "projection onto the surface must have a "
-                           "direction."));
-    e1 /= e1.norm();
-    const auto  e2 = result.side * cross_product_3d(t0, e1);
+    const auto  &t0 = frame.t0;
+    const double side =
+      top_ ? side_of((*top_)(point), t0, point, parameters + "Top") : 1.;
+    const auto  e1 = projected_direction(layup.direction(point),
+                                        t0,
+                                        point,
+                                        parameters + "Material direction");
+    const auto  e2 = side * cross_product_3d(t0, e1);
     const auto &a  = frame.a_con;
-    result.to_axes =
-      strain_transformation({{e1 * a[0], e1 * a[1]}}, {{e2 * a[0], e2 * a[1]}});
-    return result;
+    return {strain_transformation({{e1 * a[0], e1 * a[1]}},
+                                  {{e2 * a[0], e2 * a[1]}}),
+            side};
   }
 
   SectionStiffness
@@ -536,10 +495,14 @@ namespace Nacre
   {
     const Layup &here    = layup(point);
     const auto [T, side] = axes(here, frame, point);
-    return here.laminate.states(T * membrane_strain,
-                                side * (T * bending_strain),
-                                thickness(here, point),
-                                here.offset);
+    auto states          = here.laminate.states(T * membrane_strain,
+                                       side * (T * bending_strain),
+                                       thickness(here, point),
+                                       here.offset);
+    for (LayerState &state : states)
+      for (double &height : state.height)
+        height *= side;
+    return states;
   }
 
   unsigned int

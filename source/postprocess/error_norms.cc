@@ -57,7 +57,7 @@ namespace Nacre
         , quadrature_(shell.discretization.element().fine_quadrature())
         , values_(shell.discretization,
                   quadrature_,
-                  recovers_tied_strain(shell.kinematics.membrane_strain))
+                  recovers_tied_strain(shell.model.kinematics.membrane_strain))
         , fine_fe_(shell.discretization.degree() + 2)
         , fine_shapes_(fine_fe_, quadrature_.get_points())
         , dofs_(values_.n_dofs())
@@ -74,7 +74,7 @@ namespace Nacre
 
         exact_.clear();
         for (const auto &unit : fine_fe_.get_unit_support_points())
-          exact_.push_back(shell_.exact_solution.displacement(
+          exact_.push_back(shell_.model.exact_solution.displacement(
             shell_.discretization.mapping().transform_unit_to_real_cell(cell,
                                                                         unit)));
         for (unsigned int q = 0; q < values_.n_points(); ++q)
@@ -114,7 +114,10 @@ namespace Nacre
         squares[0] += values_.JxW(q) * error.value.norm_square();
         squares[1] += values_.JxW(q) * gradient_square;
         const auto error_response =
-          shell_.section.response(membrane, bending, frame, values_.point(q));
+          shell_.model.section.response(membrane,
+                                        bending,
+                                        frame,
+                                        values_.point(q));
         squares[2] += values_.JxW(q) * 2. * error_response.energy;
       }
 

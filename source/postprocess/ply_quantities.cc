@@ -94,16 +94,13 @@ namespace Nacre
     run_on_all_ranks(discretization.communicator(), [&]() {
       if (!place.is_mine)
         return;
-      StrainValues strains(discretization,
-                           Quadrature<dim>(place.unit),
-                           shell.kinematics,
-                           shell.displacement);
+      StrainValues strains(shell, Quadrature<dim>(place.unit));
       strains.reinit(place.cell);
       value = value_of(quantity,
-                       shell.section.layers(strains.membrane(0),
-                                            strains.bending(0),
-                                            strains.values().frame(0),
-                                            strains.values().point(0)));
+                       shell.model.section.layers(strains.membrane(0),
+                                                  strains.bending(0),
+                                                  strains.values().frame(0),
+                                                  strains.values().point(0)));
     });
     return Utilities::MPI::sum(value, discretization.communicator());
   }

@@ -7,6 +7,7 @@
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>
+#include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
 #include <nacre/problem/exact_solution.h>
@@ -21,30 +22,6 @@ namespace Nacre
   namespace
   {
     using Vector3 = Tensor<1, spacedim>;
-
-    /** The direction x, y, z, (a, b, c); none for "normal". */
-    std::optional<Vector3>
-    parse_direction(const std::string &text,
-                    const std::string &where,
-                    const Constants   &constants)
-    {
-      if (text == "normal")
-        return {};
-      for (unsigned int c = 0; c < spacedim; ++c)
-        if (text == std::string(1, "xyz"[c]))
-          return Point<spacedim>::unit_vector(c);
-      AssertThrow(
-        !text.empty() && text.front() == '(',
-        ExcMessage(Text::unknown_name(where,
-                                      "direction",
-                                      text,
-                                      {"x", "y", "z", "normal", "(a, b, c)"})));
-      const Vector3 direction = evaluate_point(text, where, constants);
-      AssertThrow(direction.norm() > 0.,
-                  ExcMessage(where + ": the direction " + text +
-                             " has no length."));
-      return direction / direction.norm();
-    }
 
     /** g of direction . u(point) = g . u; none: along the normal. */
     TrilinosWrappers::MPI::Vector
@@ -110,42 +87,7 @@ namespace Nacre
       return Utilities::MPI::max(maximum, discretization.communicator());
     }
 
-    /** Words of a kind and its arguments. */
-    struct Phrase
-    {
-      std::string text;
-      std::string where;
-
-      /** Remove @p word from the beginning, if it stands there. */
-      bool
-      take(const std::string &word)
-      {
-        if (text.compare(0, word.size(), word) != 0)
-          return false;
-        const std::string rest = Text::trim(text.substr(word.size()));
-        if (text.size() > word.size() && text[word.size()] != ' ' &&
-            text[word.size()] != '(')
-          return false;
-        text = rest;
-        return true;
-      }
-
-      /**
-       * What stands before @p word, outside of parentheses and quotes, or
-       * before the end.
-       */
-      std::string
-      up_to(const std::string &word)
-      {
-        const auto place = Text::find(text, " " + word + " ");
-        if (place == std::string::npos)
-          return std::exchange(text, "");
-        const std::string before = Text::trim(text.substr(0, place));
-        text = Text::trim(text.substr(place + word.size() + 2));
-        return before;
-      }
-    };
-
+    using Phrase   = QuantityPhrase;
     using Evaluate = std::function<double(const SolvedShell &)>;
 
     template <typename Function>
@@ -294,6 +236,7 @@ namespace Nacre
       AssertThrow(!phrase.text.empty(),
                   ExcMessage(where + ": write 'displacement z at (x, y, z)'."));
       const auto point  = evaluate_point(phrase.text, where, constants);
+      quantity.point    = point;
       quantity.evaluate = [=](const SolvedShell &shell) {
         return displacement_at(shell, point, direction, where);
       };
@@ -398,6 +341,7 @@ namespace Nacre
       PlyQuantity ply_quantity{kind, 0, 0, 0, point, where};
       if (!is_index)
         ply_quantity = parse_ply_quantity(kind, component, ply, point, where);
+      quantity.point    = point;
       quantity.evaluate = [=](const SolvedShell &shell) {
         return evaluate_ply_quantity(shell, ply_quantity);
       };
@@ -413,6 +357,22 @@ namespace Nacre
                  {"Tsai-Wu index", PlyQuantity::Kind::tsai_wu},
                  {"maximum stress index", PlyQuantity::Kind::maximum_stress}};
       return kinds;
+    }
+
+    /**
+     * Whether "moment" begins that of reactions, which is about a direction of
+     * space, and not a component of the shell's moments at a point. Takes the
+     * word if so.
+     */
+    bool
+    is_reaction_moment(Phrase &phrase)
+    {
+      Phrase rest = phrase;
+      if (!rest.take("moment") || rest.take("11") || rest.take("22") ||
+          rest.take("12"))
+        return false;
+      phrase = rest;
+      return true;
     }
 
     /** Fill evaluate and is_error from the words of a kind. */
@@ -450,12 +410,26 @@ namespace Nacre
       for (const auto &[name, ply_kind] : ply_kinds())
         if (phrase.take(name))
           return parse_ply(quantity, phrase, ply_kind, constants);
-      if (phrase.take("displacement"))
+      if (const auto extreme = parse_extreme_stress(phrase))
+        {
+          quantity.evaluate = [=](const SolvedShell &shell) {
+            return evaluate_extreme_stress(shell, *extreme);
+          };
+          return;
+        }
+      if (is_reaction_moment(phrase))
+        parse_reaction(quantity, phrase, true, midsurface, constants);
+      else if (const auto at_point = parse_point_quantity(phrase, constants))
+        {
+          quantity.point    = at_point->point;
+          quantity.evaluate = [=](const SolvedShell &shell) {
+            return evaluate_point_quantity(shell, *at_point);
+          };
+        }
+      else if (phrase.take("displacement"))
         parse_displacement(quantity, phrase, constants);
       else if (phrase.take("reaction"))
         parse_reaction(quantity, phrase, false, midsurface, constants);
-      else if (phrase.take("moment"))
-        parse_reaction(quantity, phrase, true, midsurface, constants);
       else
         AssertThrow(false,
                     ExcMessage(
@@ -508,7 +482,15 @@ namespace Nacre
       "SUPPORTS; "
       "moment x|y|z of SUPPORTS [about (point)], SUPPORTS 'EDGE, point (x, y, "
       "z), ...' or 'all', each node once; L2 error; H1 error; energy "
-      "error; in laminates ply stress|strain 1|2|12 of NUMBER bottom|top at "
+      "error; stress 11|22|12 bottom|middle|top at (point), principal stress "
+      "1|2 bottom|middle|top at (point), von Mises stress bottom|middle|top at "
+      "(point), membrane force|moment 11|22|12 at (point), principal membrane "
+      "force|moment 1|2 at (point), transverse shear 1|2 at (point), rotation "
+      "x|y|z|(a, b, c) at (point), of the normal; components in the axes of "
+      "'Output/Reference direction', or 'along x|y|z|(a, b, c)' before 'at'; "
+      "largest|smallest principal stress, largest von Mises stress "
+      "bottom|middle|top, over the nodes of all cells; in laminates ply "
+      "stress|strain 1|2|12 of NUMBER bottom|top at "
       "(point), Tsai-Wu index at (point), maximum stress index at (point), the "
       "largest of all plies; in dynamics kinetic energy, total energy, "
       "external work, work "
@@ -527,7 +509,11 @@ namespace Nacre
   std::vector<std::string>
   QuantitiesOfInterest::kinds()
   {
-    std::vector<std::string> names = {"displacement", "reaction", "moment"};
+    std::vector<std::string> names = {"displacement", "reaction"};
+    for (const auto &name : names_of<PointQuantity::Kind>())
+      names.push_back(name);
+    for (const auto &name : names_of<ExtremeStress::Kind>())
+      names.push_back(name);
     for (const auto &kind : ply_kinds())
       names.push_back(kind.first);
     for (const auto &name : mode_quantity_names())

@@ -139,7 +139,7 @@ namespace Nacre
     bool
     has_deformed_levers(const SolvedShell &shell)
     {
-      return shell.kinematics.model != KinematicsModel::linear;
+      return shell.model.kinematics.model != KinematicsModel::linear;
     }
 
     Vector3

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/strain_values.h>
+
+#include <cmath>
 
 namespace Nacre
 {
-  StrainValues::StrainValues(const Discretization    &discretization,
-                             const Quadrature<dim>   &points,
-                             const KinematicsOptions &kinematics,
-                             const TrilinosWrappers::MPI::Vector &displacement)
-    : is_linear_(kinematics.model == KinematicsModel::linear)
-    , displacement_(displacement)
-    , values_(discretization,
+  StrainValues::StrainValues(const ShellState      &state,
+                             const Quadrature<dim> &points)
+    : is_linear_(state.model.kinematics.model == KinematicsModel::linear)
+    , displacement_(state.displacement)
+    , values_(state.discretization,
               points,
-              recovers_tied_strain(kinematics.membrane_strain))
+              recovers_tied_strain(state.model.kinematics.membrane_strain))
     , u_(values_.n_dofs())
     , membrane_(3 * points.size())
     , bending_(3 * points.size())
@@ -45,6 +46,32 @@ namespace Nacre
       for (unsigned int c = 0; c < spacedim; ++c)
         u[c] += values_.shapes().value(q, a) * u_[values_.dof(a, c)];
     return u;
+  }
+
+  Tensor<1, spacedim>
+  StrainValues::normal_change(const unsigned int q) const
+  {
+    const auto &frame = values_.frame(q);
+    const auto  phi   = deformed_basis(frame, values_.shapes(), q);
+    if (is_linear_)
+      return ShellStrain::normal_change(frame,
+                                        {{phi[0] - frame.a_cov[0],
+                                          phi[1] - frame.a_cov[1]}});
+    const Tensor<1, spacedim> area = cross_product_3d(phi[0], phi[1]);
+    return area / area.norm() - frame.t0;
+  }
+
+  Tensor<1, spacedim>
+  StrainValues::rotation(const unsigned int q) const
+  {
+    const auto &t0 = values_.frame(q).t0;
+    const auto  dt = normal_change(q);
+    // t0 x t, of the length of the angle's sine.
+    const Tensor<1, spacedim> axis = cross_product_3d(t0, dt);
+    const double              sine = axis.norm();
+    if (is_linear_ || sine == 0.)
+      return axis;
+    return std::atan2(sine, 1. + t0 * dt) / sine * axis;
   }
 
   std::array<Tensor<1, spacedim>, dim>

@@ -3,14 +3,13 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
-#include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/hdf5_output.h>
-#include <nacre/postprocess/strain_values.h>
+#include <nacre/postprocess/point_results.h>
+#include <nacre/postprocess/thick_fields.h>
 #include <nacre/postprocess/vtu_output.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <sstream>
+#include <type_traits>
 
 namespace Nacre
 {
@@ -35,56 +35,29 @@ namespace Nacre
     namespace Interpretation = DataComponentInterpretation;
     using Vector3            = Tensor<1, spacedim>;
     using Tensor3            = Tensor<2, spacedim>;
-    using PlaneTensor        = SymmetricTensor<2, dim>;
 
-    /** The solution at one point. */
-    struct PointState
-    {
-      Vector3 displacement;
-      Vector3 normal;
-      /** Orthonormal basis of the tangent plane. */
-      std::array<Vector3, dim> e;
-      /** Membrane forces and moments in space and in the basis e. */
-      Tensor3     membrane_forces, moments;
-      PlaneTensor n, m;
-      /** At the top, in the middle, at the bottom. */
-      std::array<double, 3> von_mises{};
-      double                energy_density = 0.;
-      double                rank           = 0.;
-      /** Of laminates, bottom to top. */
-      std::vector<LayerState> layers;
-
-      /** The largest of an index of all layers; 0 without any. */
-      double
-      largest(const std::optional<double> LayerState::*index) const
-      {
-        std::optional<double> largest;
-        for (const auto &layer : layers)
-          if (layer.*index)
-            largest =
-              largest ? std::max(*largest, *(layer.*index)) : layer.*index;
-        return largest.value_or(0.);
-      }
-
-      /** Of a layer's face, as a vector; 0 where there is no such layer. */
-      Vector3
-      of_layer(const std::array<Voigt<>, 2> LayerState::*values,
-               const unsigned int                        layer,
-               const unsigned int                        face) const
-      {
-        return layer < layers.size() ? (layers[layer].*values)[face] :
-                                       Vector3();
-      }
-    };
-
-    /** s11^2 - s11 s22 + s22^2 + 3 s12^2, its root. */
+    /** The largest of an index of all layers; 0 without any. */
     double
-    von_mises(const PlaneTensor &stress)
+    largest(const PointResults         &s,
+            const std::optional<double> LayerState::*index)
     {
-      const double trace = stress[0][0] + stress[1][1];
-      const double det =
-        stress[0][0] * stress[1][1] - stress[0][1] * stress[0][1];
-      return std::sqrt(std::max(trace * trace - 3. * det, 0.));
+      std::optional<double> largest;
+      for (const auto &layer : s.layers)
+        if (layer.*index)
+          largest =
+            largest ? std::max(*largest, *(layer.*index)) : layer.*index;
+      return largest.value_or(0.);
+    }
+
+    /** Of a layer's face, as a vector; 0 where there is no such layer. */
+    Vector3
+    of_layer(const PointResults          &s,
+             const std::array<Voigt<>, 2> LayerState::*values,
+             const unsigned int                        layer,
+             const unsigned int                        face)
+    {
+      return layer < s.layers.size() ? (s.layers[layer].*values)[face] :
+                                       Vector3();
     }
 
     /** A field of the output: name, rank, and how to compute it. */
@@ -93,41 +66,41 @@ namespace Nacre
       std::string                                 name;
       Interpretation::DataComponentInterpretation interpretation;
       unsigned int                                n_components;
-      std::function<double(const PointState &, const unsigned int)> component;
+      std::function<double(const PointResults &, const unsigned int)> component;
     };
 
     OutputField
-    scalar(const std::string                               &name,
-           const std::function<double(const PointState &)> &value)
+    scalar(const std::string                                 &name,
+           const std::function<double(const PointResults &)> &value)
     {
       return {name,
               Interpretation::component_is_scalar,
               1,
-              [value](const PointState &s, const unsigned int) {
+              [value](const PointResults &s, const unsigned int) {
                 return value(s);
               }};
     }
 
     OutputField
-    vector(const std::string                                &name,
-           const std::function<Vector3(const PointState &)> &value)
+    vector(const std::string                                  &name,
+           const std::function<Vector3(const PointResults &)> &value)
     {
       return {name,
               Interpretation::component_is_part_of_vector,
               spacedim,
-              [value](const PointState &s, const unsigned int c) {
+              [value](const PointResults &s, const unsigned int c) {
                 return value(s)[c];
               }};
     }
 
     OutputField
-    tensor(const std::string                                &name,
-           const std::function<Tensor3(const PointState &)> &value)
+    tensor(const std::string                                  &name,
+           const std::function<Tensor3(const PointResults &)> &value)
     {
       return {name,
               Interpretation::component_is_part_of_tensor,
               Tensor3::n_independent_components,
-              [value](const PointState &s, const unsigned int c) {
+              [value](const PointResults &s, const unsigned int c) {
                 return value(s)[Tensor3::unrolled_to_component_indices(c)];
               }};
     }
@@ -136,23 +109,77 @@ namespace Nacre
     std::vector<OutputField>
     layer_fields(const unsigned int n_layers)
     {
-      using S                       = const PointState &;
+      using S                       = const PointResults &;
       std::vector<OutputField> list = {
-        scalar("tsai_wu", [](S s) { return s.largest(&LayerState::tsai_wu); }),
+        scalar("tsai_wu", [](S s) { return largest(s, &LayerState::tsai_wu); }),
         scalar("maximum_stress",
-               [](S s) { return s.largest(&LayerState::maximum_stress); })};
+               [](S s) { return largest(s, &LayerState::maximum_stress); })};
       for (unsigned int k = 0; k < n_layers; ++k)
         for (unsigned int face = 0; face < 2; ++face)
           {
             const std::string name = "ply_" + std::to_string(k + 1) +
                                      (face == 0 ? "_bottom_" : "_top_");
             list.push_back(vector(name + "stress", [=](S s) {
-              return s.of_layer(&LayerState::stress, k, face);
+              return of_layer(s, &LayerState::stress, k, face);
             }));
             list.push_back(vector(name + "strain", [=](S s) {
-              return s.of_layer(&LayerState::strain, k, face);
+              return of_layer(s, &LayerState::strain, k, face);
             }));
           }
+      return list;
+    }
+
+    /** The components of a tensor of the tangent plane, NAME11, 22, 12. */
+    void
+    add_components(const std::string                                  &name,
+                   const std::function<Tensor3(const PointResults &)> &value,
+                   std::vector<OutputField>                           &list)
+    {
+      for (const auto &[i, j] :
+           {std::pair<unsigned int, unsigned int>{0, 0}, {1, 1}, {0, 1}})
+        list.push_back(
+          scalar(name + std::to_string(i + 1) + std::to_string(j + 1),
+                 [=, i = i, j = j](const PointResults &s) {
+                   return s.e[i] * (value(s) * s.e[j]);
+                 }));
+    }
+
+    /** The principal values of a tensor, NAME_1_ENDING and NAME_2_ENDING. */
+    void
+    add_principal_values(
+      const std::string                                  &name,
+      const std::string                                  &ending,
+      const std::function<Tensor3(const PointResults &)> &value,
+      std::vector<OutputField>                           &list)
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        list.push_back(scalar(name + "_" + std::to_string(i + 1) + ending,
+                              [=](const PointResults &s) {
+                                return eigenvalues(s.in_axes(value(s)))[i];
+                              }));
+    }
+
+    /** Stresses at the faces. */
+    std::vector<OutputField>
+    stress_fields()
+    {
+      using S = const PointResults &;
+      std::vector<OutputField> list;
+      for (const Face face : {Face::top, Face::middle, Face::bottom})
+        list.push_back(scalar("von_mises_" + name_of(face),
+                              [=](S s) { return s.von_mises(face); }));
+      for (const Face face : {Face::top, Face::middle, Face::bottom})
+        {
+          const auto stress = [=](S s) {
+            return s.stress[static_cast<unsigned int>(face)];
+          };
+          const std::string ending = "_" + name_of(face);
+          add_principal_values("principal_stress", ending, stress, list);
+          for (unsigned int i = 0; i < dim; ++i)
+            list.push_back(
+              vector("principal_direction_" + std::to_string(i + 1) + ending,
+                     [=](S s) { return s.principal(stress(s))[i].direction; }));
+        }
       return list;
     }
 
@@ -160,31 +187,31 @@ namespace Nacre
     std::vector<OutputField>
     fields(const unsigned int n_layers)
     {
-      using S                       = const PointState &;
+      using S            = const PointResults &;
+      const auto forces  = [](S s) { return s.membrane_forces; };
+      const auto moments = [](S s) { return s.moments; };
+
       std::vector<OutputField> list = {
         vector("displacement", [](S s) { return s.displacement; }),
         vector("normal", [](S s) { return s.normal; }),
         vector("e1", [](S s) { return s.e[0]; }),
         vector("e2", [](S s) { return s.e[1]; }),
-        tensor("membrane_forces", [](S s) { return s.membrane_forces; }),
-        tensor("moments", [](S s) { return s.moments; }),
-        scalar("principal_membrane_force_1",
-               [](S s) { return eigenvalues(s.n)[0]; }),
-        scalar("principal_membrane_force_2",
-               [](S s) { return eigenvalues(s.n)[1]; }),
-        scalar("principal_moment_1", [](S s) { return eigenvalues(s.m)[0]; }),
-        scalar("principal_moment_2", [](S s) { return eigenvalues(s.m)[1]; }),
-        scalar("n11", [](S s) { return s.n[0][0]; }),
-        scalar("n22", [](S s) { return s.n[1][1]; }),
-        scalar("n12", [](S s) { return s.n[0][1]; }),
-        scalar("m11", [](S s) { return s.m[0][0]; }),
-        scalar("m22", [](S s) { return s.m[1][1]; }),
-        scalar("m12", [](S s) { return s.m[0][1]; }),
-        scalar("von_mises_top", [](S s) { return s.von_mises[0]; }),
-        scalar("von_mises_middle", [](S s) { return s.von_mises[1]; }),
-        scalar("von_mises_bottom", [](S s) { return s.von_mises[2]; }),
-        scalar("energy_density", [](S s) { return s.energy_density; }),
-        scalar("rank", [](S s) { return s.rank; })};
+        tensor("membrane_forces", forces),
+        tensor("moments", moments)};
+      add_principal_values("principal_membrane_force", "", forces, list);
+      add_principal_values("principal_moment", "", moments, list);
+      add_components("n", forces, list);
+      add_components("m", moments, list);
+      list.push_back(
+        vector("transverse_shear", [](S s) { return s.transverse_shear; }));
+      for (unsigned int i = 0; i < dim; ++i)
+        list.push_back(scalar("q" + std::to_string(i + 1), [=](S s) {
+          return s.e[i] * s.transverse_shear;
+        }));
+      for (const auto &field : stress_fields())
+        list.push_back(field);
+      list.push_back(
+        scalar("energy_density", [](S s) { return s.energy_density; }));
       if (n_layers > 0)
         for (const auto &field : layer_fields(n_layers))
           list.push_back(field);
@@ -200,80 +227,6 @@ namespace Nacre
       flags.write_higher_order_cells = true;
       return flags;
     }
-
-    /** Components e_i . T e_j of a tensor of the tangent plane. */
-    PlaneTensor
-    in_basis(const std::array<Vector3, dim> &e, const Tensor3 &T)
-    {
-      PlaneTensor plane;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          plane[i][j] = e[i] * (T * e[j]);
-      return plane;
-    }
-
-    /** The state at the points of one cell after the other. */
-    class CellStates
-    {
-    public:
-      CellStates(const Discretization                &discretization,
-                 const SectionLaw                    &section,
-                 const Quadrature<dim>               &points,
-                 const KinematicsOptions             &kinematics,
-                 const TrilinosWrappers::MPI::Vector &displacement)
-        : section_(section)
-        , rank_(Utilities::MPI::this_mpi_process(discretization.communicator()))
-        , strains_(discretization, points, kinematics, displacement)
-      {}
-
-      void
-      reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
-      {
-        strains_.reinit(cell);
-      }
-
-      Point<spacedim>
-      position(const unsigned int q) const
-      {
-        return strains_.values().point(q);
-      }
-
-      PointState
-      state(const unsigned int q) const
-      {
-        const auto &frame  = strains_.values().frame(q);
-        const auto  point  = strains_.values().point(q);
-        const auto  eps    = strains_.membrane(q);
-        const auto  rho    = strains_.bending(q);
-        const auto  answer = section_.response(eps, rho, frame, point);
-
-        PointState s;
-        s.displacement   = strains_.displacement(q);
-        s.normal         = frame.t0;
-        s.e[0]           = frame.a_cov[0] / frame.a_cov[0].norm();
-        s.e[1]           = cross_product_3d(frame.t0, s.e[0]);
-        s.rank           = rank_;
-        s.energy_density = answer.energy;
-        s.membrane_forces =
-          ShellStrain::resultant_tensor(frame, answer.membrane_force);
-        s.moments = ShellStrain::resultant_tensor(frame, answer.moment);
-        s.n       = in_basis(s.e, s.membrane_forces);
-        s.m       = in_basis(s.e, s.moments);
-        for (unsigned int k = 0; k < 3; ++k)
-          s.von_mises[k] = von_mises(
-            in_basis(s.e,
-                     ShellStrain::resultant_tensor(
-                       frame,
-                       section_.stress(eps, rho, 1. - k, frame, point))));
-        s.layers = section_.layers(eps, rho, frame, point);
-        return s;
-      }
-
-    private:
-      const SectionLaw  &section_;
-      const unsigned int rank_;
-      StrainValues       strains_;
-    };
 
     std::string
     path_of(const std::string &folder, const std::string &name)
@@ -328,12 +281,16 @@ namespace Nacre
      * parallel file system is needed.
      * @return the file that holds or lists all cells
      */
+    template <typename Fields>
     std::string
-    write_vtu_files(const ShellFields &fields,
+    write_vtu_files(const Fields      &fields,
                     const Groups      &groups,
                     const std::string &folder,
                     const std::string &base)
     {
+      // Volume cells are linear.
+      DataOutBase::VtkFlags flags    = output_flags();
+      flags.write_higher_order_cells = std::is_same_v<Fields, ShellFields>;
       std::map<unsigned int, std::string> mine;
       if (groups.n_cells[groups.rank] > 0)
         {
@@ -341,7 +298,7 @@ namespace Nacre
           DataOutBase::write_vtu_main(fields.get_patches(),
                                       fields.get_dataset_names(),
                                       fields.get_nonscalar_data_ranges(),
-                                      output_flags(),
+                                      flags,
                                       piece);
           mine[groups.rank - groups.rank % groups.size] = piece.str();
         }
@@ -352,7 +309,7 @@ namespace Nacre
           return;
         const auto file = groups.file(base, groups.rank / groups.size);
         write_file(path_of(folder, file), [&](std::ostream &out) {
-          DataOutBase::write_vtu_header(out, output_flags());
+          DataOutBase::write_vtu_header(out, flags);
           for (const auto &piece : pieces)
             out << piece.second;
           DataOutBase::write_vtu_footer(out);
@@ -373,19 +330,33 @@ namespace Nacre
       });
       return record;
     }
+
+    /** The list of all times. */
+    void
+    write_pvd(const MPI_Comm      communicator,
+              const std::string  &base,
+              const FieldRecords &records)
+    {
+      run_on_root(communicator, [&] {
+        std::vector<std::pair<double, std::string>> times;
+        for (const auto &record : records)
+          times.push_back(record.second);
+        write_file(base + ".pvd", [&](std::ostream &out) {
+          DataOutBase::write_pvd_record(out, times);
+        });
+      });
+    }
   } // namespace
 
 
-  ShellFields::ShellFields(const Discretization                &discretization,
-                           const SectionLaw                    &section,
-                           const KinematicsOptions             &kinematics,
-                           const TrilinosWrappers::MPI::Vector &displacement,
+  ShellFields::ShellFields(const ShellState          &state,
                            const std::vector<double> &error_indicators,
                            const unsigned int         n_subdivisions)
-    : n_layers_(section.n_layers())
+    : n_layers_(state.model.section.n_layers())
     , has_error_indicators_(!error_indicators.empty())
   {
-    const bool triangles =
+    const Discretization &discretization = state.discretization;
+    const bool            triangles =
       discretization.element().type == ElementType::triangle;
     const unsigned int n = (triangles || n_subdivisions == 0) ?
                              discretization.degree() :
@@ -395,19 +366,17 @@ namespace Nacre
       triangles ?
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
         Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
-    CellStates         states(discretization,
-                      section,
-                      points,
-                      kinematics,
-                      displacement);
+    CellResults        results(state, points, true);
     const auto         list         = fields(n_layers_);
     const unsigned int n_components = get_dataset_names().size();
+    const double       rank =
+      Utilities::MPI::this_mpi_process(discretization.communicator());
 
     for (const auto &cell :
          discretization.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          states.reinit(cell);
+          results.reinit(cell);
           Patch patch;
           patch.patch_index          = patches_.size();
           patch.reference_cell       = cell->reference_cell();
@@ -416,23 +385,24 @@ namespace Nacre
           patch.data.reinit(n_components + spacedim, points.size());
           for (unsigned int q = 0; q < points.size(); ++q)
             {
-              const PointState state = states.state(q);
-              unsigned int     row   = 0;
+              const PointResults here = results.at(q);
+              unsigned int       row  = 0;
               for (const auto &field : list)
                 for (unsigned int c = 0; c < field.n_components; ++c)
-                  patch.data(row++, q) = field.component(state, c);
+                  patch.data(row++, q) = field.component(here, c);
+              patch.data(row++, q) = rank;
               if (has_error_indicators_)
                 patch.data(row++, q) =
                   error_indicators[cell->active_cell_index()];
               for (unsigned int c = 0; c < spacedim; ++c)
-                patch.data(row++, q) = states.position(q)[c];
+                patch.data(row++, q) = results.position(q)[c];
             }
           const std::vector<unsigned int> corners =
             triangles ?
               std::vector<unsigned int>{0, 1, 2} :
               std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
           for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
-            patch.vertices[vertex] = states.position(corners[vertex]);
+            patch.vertices[vertex] = results.position(corners[vertex]);
           patches_.push_back(std::move(patch));
         }
 
@@ -453,6 +423,7 @@ namespace Nacre
     std::vector<std::string> names;
     for (const auto &field : fields(n_layers_))
       names.insert(names.end(), field.n_components, field.name);
+    names.push_back("rank");
     if (has_error_indicators_)
       names.push_back("error_indicator");
     return names;
@@ -490,27 +461,34 @@ namespace Nacre
                     const FieldRecords &written)
   {
     records_[path_of(folder, name)] = written;
+    if (!options_.thick)
+      return;
+    // Of the bodies' files those that are there.
+    const std::string base = name + "_thick";
+    for (const auto &[counter, record] : written)
+      for (const auto *const ending : {".vtu", ".pvtu"})
+        {
+          const std::string file =
+            base + "_" + std::to_string(counter) + ending;
+          if (std::filesystem::exists(path_of(folder, file)))
+            records_[path_of(folder, base)][counter] = {record.first, file};
+        }
   }
 
 
   void
-  VtuOutput::write(const Discretization                &discretization,
-                   const SectionLaw                    &section,
-                   const KinematicsOptions             &kinematics,
-                   const TrilinosWrappers::MPI::Vector &ghosted_displacement,
-                   const std::string                   &folder,
-                   const std::string                   &name,
-                   const Entry                         &entry,
-                   const std::vector<double>           &error_indicators)
+  VtuOutput::write(const ShellState          &state,
+                   const std::string         &folder,
+                   const std::string         &name,
+                   const Entry               &entry,
+                   const std::vector<double> &error_indicators)
   {
-    const MPI_Comm communicator = discretization.communicator();
+    const Discretization &discretization = state.discretization;
+    const MPI_Comm        communicator   = discretization.communicator();
     run_on_root(communicator, [&] { create_folder(folder); });
     std::unique_ptr<ShellFields> fields;
     run_on_all_ranks(communicator, [&] {
-      fields = std::make_unique<ShellFields>(discretization,
-                                             section,
-                                             kinematics,
-                                             ghosted_displacement,
+      fields = std::make_unique<ShellFields>(state,
                                              error_indicators,
                                              options_.n_subdivisions);
     });
@@ -530,19 +508,36 @@ namespace Nacre
                                 Groups(discretization, options_.ranks_per_file),
                                 folder,
                                 base)};
+    if (options_.thick)
+      write_thick(state, folder, name, entry);
+    if (!is_hdf5)
+      return write_pvd(communicator, all, records);
     run_on_root(communicator, [&] {
-      if (is_hdf5)
-        {
-          write_file(all + ".xdmf",
-                     [&](std::ostream &out) { write_xdmf(out, records); });
-          return;
-        }
-      std::vector<std::pair<double, std::string>> times;
-      for (const auto &record : records)
-        times.push_back(record.second);
-      write_file(all + ".pvd", [&](std::ostream &out) {
-        DataOutBase::write_pvd_record(out, times);
-      });
+      write_file(all + ".xdmf",
+                 [&](std::ostream &out) { write_xdmf(out, records); });
     });
+  }
+
+  void
+  VtuOutput::write_thick(const ShellState  &state,
+                         const std::string &folder,
+                         const std::string &name,
+                         const Entry       &entry)
+  {
+    const MPI_Comm communicator = state.discretization.communicator();
+    std::unique_ptr<ThickFields> fields;
+    run_on_all_ranks(communicator, [&] {
+      fields = std::make_unique<ThickFields>(state, options_.n_subdivisions);
+    });
+    const std::string base    = name + "_thick";
+    const std::string all     = path_of(folder, base);
+    FieldRecords     &records = records_[all];
+    records[entry.counter]    = {entry.time,
+                                 write_vtu_files(*fields,
+                                              Groups(state.discretization,
+                                                     options_.ranks_per_file),
+                                              folder,
+                                              base + "_" + entry.label)};
+    write_pvd(communicator, all, records);
   }
 } // namespace Nacre

@@ -165,18 +165,14 @@ namespace Nacre
   }
 
   ErrorEstimate
-  AdaptiveRefinement::estimate(const ShellModel                    &model,
-                               const SolvedShell                   &solution,
+  AdaptiveRefinement::estimate(const SolvedShell                   &solution,
                                const TrilinosWrappers::MPI::Vector &dual) const
   {
     const MPI_Comm       communicator = solution.discretization.communicator();
     CpuTimer             timer(communicator);
     const ErrorEstimator estimator(solution.discretization,
-                                   model.section,
-                                   model.supports,
-                                   model.loads,
-                                   solution.shell_operator.penalty(),
-                                   model.kinematics);
+                                   solution.model,
+                                   solution.shell_operator.penalty());
     ErrorEstimate        result;
     const ErrorEstimator::Field u{&solution.displacement,
                                   true,
@@ -237,7 +233,7 @@ namespace Nacre
         if (reference_)
           error = *reference_ - row.values[*goal_index_];
       }
-    else if (solution.exact_solution.is_known())
+    else if (solution.model.exact_solution.is_known())
       error = compute_error_norms(solution).energy;
 
     row.values.push_back(estimate.value);

@@ -74,6 +74,11 @@ namespace Nacre
                   "Units: none.",
                   prm,
                   Patterns::Integer(0, 10));
+    add_parameter("Thick output",
+                  output_.fields.thick,
+                  "Whether each .vtu has a companion NAME_thick_LABEL.vtu: the "
+                  "shell as a body, from the bottom to the top, with its "
+                  "stresses, ply by ply in laminates.");
     add_parameter("Report seconds",
                   output_.report_seconds,
                   "Whether the terminal shows CPU seconds; without them the "

@@ -25,14 +25,10 @@ namespace Nacre
     , displacement_(solve(log))
     , dual_(goal != nullptr ? solve_dual(*goal) : Vector())
     , residual_(shell.owned_vector())
-    , solved_{shell.discretization(),
-              shell.problem().model.section,
+    , solved_{{shell.discretization(), shell.problem().model, displacement_},
               shell.shell_operator(),
               actions_,
               shell.conditions(),
-              shell.problem().model.kinematics,
-              shell.problem().model.exact_solution,
-              displacement_,
               residual_,
               shell.shell_operator().residual(displacement_,
                                               actions_,
@@ -220,8 +216,7 @@ namespace Nacre
       ErrorEstimate        estimate;
       if (adaptive_.is_on())
         {
-          estimate =
-            adaptive_.estimate(problem_.model, solved, solution.dual());
+          estimate = adaptive_.estimate(solved, solution.dual());
           adaptive_.add_to_row(solved, estimate, row);
         }
       const std::string number = std::to_string(cycle);

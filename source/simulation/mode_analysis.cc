@@ -100,23 +100,18 @@ namespace Nacre
     const ShellActions actions =
       shell.shell_operator().actions(problem_.model.at(1.));
     Vector            residual = shell.owned_vector();
-    const SolvedShell solved{shell.discretization(),
-                             problem_.model.section,
-                             shell.shell_operator(),
-                             actions,
-                             shell.conditions(),
-                             problem_.model.kinematics,
-                             problem_.model.exact_solution,
-                             modes.state,
-                             residual,
-                             shell.shell_operator().residual(modes.state,
-                                                             actions,
-                                                             residual),
-                             nullptr,
-                             nullptr,
-                             {},
-                             &modes.values};
-    const auto        row = recorder.make_row(solved, record);
+    const SolvedShell solved{
+      {shell.discretization(), problem_.model, modes.state},
+      shell.shell_operator(),
+      actions,
+      shell.conditions(),
+      residual,
+      shell.shell_operator().residual(modes.state, actions, residual),
+      nullptr,
+      nullptr,
+      {},
+      &modes.values};
+    const auto row = recorder.make_row(solved, record);
     write_table(modes, recorder);
     if (recorder.options().write_vtu)
       write_fields(modes, prestress, shell, recorder);
@@ -186,12 +181,9 @@ namespace Nacre
     for (unsigned int k = 0; k < modes.vectors.size(); ++k)
       {
         const unsigned int number = modes.values.n_below + k + 1;
-        output.write(shell.discretization(),
-                     problem_.model.section,
-                     problem_.model.kinematics,
-                     scaled_mode(modes.vectors[k],
-                                 prestress.constraints(),
-                                 shell),
+        const Vector       mode =
+          scaled_mode(modes.vectors[k], prestress.constraints(), shell);
+        output.write({shell.discretization(), problem_.model, mode},
                      options.folder,
                      options.name,
                      {number, double(number), "mode" + std::to_string(number)});

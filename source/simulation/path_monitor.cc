@@ -186,10 +186,7 @@ namespace Nacre
   void
   PathMonitor::write_fields(const PathState &state, const SolvedShell &shell)
   {
-    vtu_output_.write(shell.discretization,
-                      shell.section,
-                      shell.kinematics,
-                      shell.displacement,
+    vtu_output_.write(shell,
                       options_.folder,
                       options_.name,
                       {state.step, state.time, std::to_string(state.step)});

@@ -83,14 +83,10 @@ namespace Nacre
       : displacement_(ghosted(state.time, state.motion.u, system))
       , velocity_(system.with_ghosts(state.motion.v))
       , residual_(shell.owned_vector())
-      , shell_{shell.discretization(),
-               shell.problem().model.section,
+      , shell_{{shell.discretization(), shell.problem().model, displacement_},
                shell.shell_operator(),
                system.actions(),
                shell.conditions(),
-               shell.problem().model.kinematics,
-               shell.problem().model.exact_solution,
-               displacement_,
                residual_,
                forces(state, shell, path, system),
                path.dynamic_mass(),
@@ -270,9 +266,8 @@ namespace Nacre
     double                               estimated = 0.;
     {
       const SolvedState solved(state, *stepped);
-      const auto        estimate =
-        adaptive_.estimate(problem_.model, solved.shell(), {});
-      const auto marked = adaptive_.mark(estimate, solved.shell());
+      const auto        estimate = adaptive_.estimate(solved.shell(), {});
+      const auto        marked   = adaptive_.mark(estimate, solved.shell());
       if (!marked)
         return;
       estimated = estimate.value;

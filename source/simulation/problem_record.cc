@@ -35,6 +35,7 @@ namespace Nacre
         "Study/Output format",
         "Study/Ranks per VTU file",
         "Study/Output subdivisions",
+        "Study/Thick output",
         "Study/Report seconds",
         mesh_file_name,
         "Discretization/Assembly",
@@ -54,6 +55,7 @@ namespace Nacre
         "Analysis/VTU steps",
         "Analysis/Checkpoint steps",
         "Linear solver/",
+        "Output/",
         "Quantities/",
         "Exact solution/"};
       return names;

@@ -65,7 +65,7 @@ namespace Nacre
       std::error_code not_there;
       if (!keeps_results)
         for (const auto *const ending :
-             {".csv", ".txt", ".tex", ".pvd", ".xdmf"})
+             {".csv", ".txt", ".tex", ".pvd", "_thick.pvd", ".xdmf"})
           std::filesystem::remove(options_.file(ending), not_there);
       write_used_parameters(options_.file(".used.prm"));
     });
@@ -82,8 +82,9 @@ namespace Nacre
   Recorder::check_quantities(const Discretization &mesh) const
   {
     for (const auto &quantity : quantities_.quantities())
-      if (quantity.goal.load)
-        quantity.goal.load(mesh);
+      if (quantity.point)
+        mesh.locate(*quantity.point,
+                    "Quantities/Quantities, '" + quantity.name + "'");
   }
 
   ResultsTable::Row
@@ -141,10 +142,7 @@ namespace Nacre
     if (!options_.write_vtu)
       return;
     const unsigned int counter = table_.rows().size() - 1;
-    vtu_output_.write(shell.discretization,
-                      shell.section,
-                      shell.kinematics,
-                      shell.displacement,
+    vtu_output_.write(shell,
                       options_.folder,
                       options_.name,
                       {counter, double(counter), names_.label + ending},

@@ -103,6 +103,46 @@ namespace Nacre
   }
 
 
+  namespace
+  {
+    const std::string direction_name = "Reference direction";
+    const std::string top_name       = "Top";
+  } // namespace
+
+  ResultAxesParameters::ResultAxesParameters()
+    : ParameterAcceptor("/Output")
+  {
+    add_parameter(
+      direction_name,
+      direction_,
+      "The axis 1 of stresses, forces and moments in fields and quantities: "
+      "the projection of x, y, z or of a vector, e.g. '-y, x, 0', onto the "
+      "surface, whose components may be expressions of x, y, z; empty: the "
+      "first coordinate of each cell. The axis 2 is the normal times the axis "
+      "1. Units: none.");
+    add_parameter(
+      top_name,
+      top_,
+      "The side of the top, where the normal of the results points to: "
+      "'normal', that of the surface's normal, or that of a vector, e.g. '0, "
+      "0, 1', which may be an expression of x, y, z. Units: none.");
+  }
+
+  SurfaceAxes
+  ResultAxesParameters::make(const Constants &constants) const
+  {
+    SurfaceAxes axes;
+    axes.direction_parameter = "Output/" + direction_name;
+    axes.top_parameter       = "Output/" + top_name;
+    if (!direction_.empty())
+      axes.direction =
+        read_direction(direction_, axes.direction_parameter, constants);
+    if (top_ != "normal")
+      axes.top = read_direction(top_, axes.top_parameter, constants);
+    return axes;
+  }
+
+
   ProblemParameters::ProblemParameters(std::unique_ptr<SectionLaw> section)
     : section_(std::move(section))
   {}
@@ -130,6 +170,7 @@ namespace Nacre
     model.mapping_degree = discretization_.mapping_degree();
     model.kinematics     = discretization_.kinematics();
     model.eta            = shell_case.eta;
+    model.result_axes    = result_axes_.make(constants);
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);

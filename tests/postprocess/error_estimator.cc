@@ -8,6 +8,7 @@
 // opposite orientation changes nothing.
 
 #include "../tests_common.h"
+#include "square_model.h"
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
 
@@ -57,14 +58,11 @@ namespace
                 parameters.section,
                 element.full_quadrature(),
                 eta)
-      , estimator(*discretization,
-                  parameters.section,
-                  parameters.conditions,
-                  parameters.loads,
-                  penalty,
-                  element.type == ElementType::serendipity ?
-                    MembraneStrain::reduced :
-                    MembraneStrain::tied)
+      , model(square_model(parameters.section,
+                           element.type == ElementType::serendipity ?
+                             MembraneStrain::reduced :
+                             MembraneStrain::tied))
+      , estimator(*discretization, model, penalty)
     {}
 
     ErrorIndicators
@@ -91,6 +89,7 @@ namespace
     Parameters                      parameters;
     std::unique_ptr<Discretization> discretization;
     EdgePenalty                     penalty;
+    ShellModel                      model;
     ErrorEstimator                  estimator;
   };
 

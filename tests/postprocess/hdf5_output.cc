@@ -6,6 +6,7 @@
 // also where ranks have no cells; the .xdmf lists each time.
 
 #include "../tests_common.h"
+#include "square_model.h"
 #include <nacre/postprocess/vtu_output.h>
 
 #include <deal.II/base/hdf5.h>
@@ -125,12 +126,10 @@ namespace
     mesh.cells                = {{{0, 1, 3, 4}}, {{1, 2, 4, 5}}};
     const auto discretization = make_discretization(mesh, element);
     const auto u              = interpolate_in_parallel(*discretization);
+    const auto model          = square_model(parameters.section);
     VtuOutput  output({FieldFormat::hdf5, 16, 0});
     for (const unsigned int counter : {0, 1})
-      output.write(*discretization,
-                   parameters.section,
-                   MembraneStrain::tied,
-                   u,
+      output.write({*discretization, model, u},
                    folder,
                    name,
                    {counter, 0.5 * counter, std::to_string(counter)});

@@ -5,6 +5,7 @@
 // curvature on a distorted mesh, a cylinder that expands; the files written on
 // one rank and on several, their arrays, and the message of a bad folder.
 
+#include "square_model.h"
 #include <nacre/base/mpi_errors.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/vtu_output.h>
@@ -349,8 +350,9 @@ namespace
   {
     for (const auto strain : {MembraneStrain::tied, MembraneStrain::full})
       {
-        const auto        u = interpolate(plate, plate_displacement);
-        const ShellFields fields(plate, section(), strain, u);
+        const auto        u     = interpolate(plate, plate_displacement);
+        const auto        model = Tests::square_model(section(), strain);
+        const ShellFields fields({plate, model, u});
         const std::string text =
           "plate, " + name +
           (strain == MembraneStrain::tied ? ", tied" : ", full");
@@ -379,7 +381,8 @@ namespace
     const auto        u        = interpolate(*cylinder, [=](const Point<3> &x) {
       return w / R * Point<3>(x[0], x[1], 0.);
     });
-    const ShellFields fields(*cylinder, section(), MembraneStrain::tied, u);
+    const auto        model    = Tests::square_model(section());
+    const ShellFields fields({*cylinder, model, u});
 
     const auto n      = law(D_n, w / R, 0., 0.);
     const auto m      = law(D_m, w / (R * R), 0., 0.);
@@ -437,15 +440,10 @@ namespace
       std::filesystem::remove_all("vtu_output_test");
     const auto plate = make_plate(3);
     const auto u     = interpolate(*plate, plate_displacement);
+    const auto model = Tests::square_model(section());
     VtuOutput  output({FieldFormat::vtu, 1, 0});
     const auto write = [&](const std::string &into, const unsigned counter) {
-      output.write(*plate,
-                   section(),
-                   MembraneStrain::tied,
-                   u,
-                   into,
-                   "plate",
-                   counter);
+      output.write({*plate, model, u}, into, "plate", counter);
     };
     write(folder, 0);
     write(folder, 3);
@@ -479,8 +477,7 @@ namespace
            "cells of the .vtu");
 
     // A group of ranks shares a file.
-    VtuOutput()
-      .write(*plate, section(), MembraneStrain::tied, u, folder, "shared", 0);
+    VtuOutput().write({*plate, model, u}, folder, "shared", 0);
     const std::string shared   = contents(folder + "/shared_0.vtu");
     unsigned int      n_pieces = 0;
     for (auto at = shared.find("<Piece"); at != std::string::npos;

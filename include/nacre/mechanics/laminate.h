@@ -64,7 +64,7 @@ namespace Nacre
 
     /**
      * Strains and stresses of all layers, for the strains @p eps and @p kappa
-     * (1/length) of the reference surface in the axes 1, 2.
+     * (1/length) of the reference surface in the axes 1, 2; heights along 3.
      */
     std::vector<LayerState>
     states(const Voigt<> &eps,

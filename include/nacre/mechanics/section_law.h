@@ -76,6 +76,8 @@ namespace Nacre
   {
     /** At the lower face and at the upper one. */
     std::array<Voigt<>, 2> strain, stress;
+    /** Of both faces above the reference surface, along t0 (length). */
+    std::array<double, 2> height{};
     /**
      * The larger of both faces' failure indices; 1 at failure. None if the
      * material has no strengths.

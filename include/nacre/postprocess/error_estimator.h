@@ -7,7 +7,6 @@
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/shell_actions.h>
-#include <nacre/problem/kinematics_options.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -16,8 +15,7 @@
 
 namespace Nacre
 {
-  class BoundaryConditions;
-  class Loads;
+  struct ShellModel;
 
   /** The residuals that an estimate is made of. */
   enum class Residual
@@ -118,12 +116,9 @@ namespace Nacre
     };
 
     /** Everything must stay alive; collective. */
-    ErrorEstimator(const Discretization     &discretization,
-                   const SectionLaw         &section,
-                   const BoundaryConditions &boundary_conditions,
-                   const Loads              &loads,
-                   const EdgePenalty        &penalty,
-                   const KinematicsOptions  &kinematics);
+    ErrorEstimator(const Discretization &discretization,
+                   const ShellModel     &model,
+                   const EdgePenalty    &penalty);
 
     /** eta_K^2 of one field, of any kinematics; collective. */
     ErrorIndicators
@@ -140,11 +135,8 @@ namespace Nacre
     class Assembly;
 
     const Discretization        &discretization_;
-    const SectionLaw            &section_;
-    const BoundaryConditions    &boundary_conditions_;
-    const Loads                 &loads_;
+    const ShellModel            &model_;
     const EdgePenalty           &penalty_;
-    const KinematicsOptions      kinematics_;
     const DisplacementConditions conditions_;
   };
 } // namespace Nacre

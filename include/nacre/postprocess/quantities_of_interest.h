@@ -5,12 +5,9 @@
 #define nacre_postprocess_quantities_of_interest_h
 
 #include <nacre/base/expression.h>
-#include <nacre/forms/energy_balance.h>
-#include <nacre/forms/kinematics.h>
+#include <nacre/postprocess/shell_state.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
 #include <optional>
@@ -19,40 +16,6 @@
 
 namespace Nacre
 {
-  class DisplacementConditions;
-  class ExactSolution;
-  class MassTerms;
-  class Midsurface;
-  class ShellOperator;
-  struct ModeValues;
-  struct ShellActions;
-
-  /** A solved shell, as the quantities see it. */
-  struct SolvedShell
-  {
-    const Discretization &discretization;
-    const SectionLaw     &section;
-    const ShellOperator  &shell_operator;
-    const ShellActions   &actions;
-    /** Which nodes are held: the same at all times. */
-    const DisplacementConditions &conditions;
-    const KinematicsOptions       kinematics;
-    const ExactSolution          &exact_solution;
-    /** Ghosted displacement (length). */
-    const TrilinosWrappers::MPI::Vector &displacement;
-    /** K u - f (force) without constraints. */
-    const TrilinosWrappers::MPI::Vector &residual;
-    const Energies                       energies;
-    /** @name Motion in time: null in statics */
-    //@{
-    const MassTerms                     *mass     = nullptr;
-    const TrilinosWrappers::MPI::Vector *velocity = nullptr;
-    EnergyBalance                        balance  = {};
-    //@}
-    /** Of buckling and vibration; else null. */
-    const ModeValues *modes = nullptr;
-  };
-
   /**
    * What makes a quantity the goal of an error estimate: its derivative at
    * any displacement, or that it is the energy. A quantity Q(u) is linear with
@@ -89,6 +52,8 @@ namespace Nacre
       bool is_error = false;
       /** The value; collective. */
       std::function<double(const SolvedShell &)> evaluate;
+      /** Of the mid-surface, if the quantity is taken at one (length). */
+      std::optional<Point<3>> point;
       /** Unknown for quantities that can't be a goal. */
       GoalFunctional goal;
     };

@@ -5,9 +5,8 @@
 #define nacre_postprocess_strain_values_h
 
 #include <nacre/discretization/shell_values.h>
-#include <nacre/problem/kinematics_options.h>
+#include <nacre/postprocess/shell_state.h>
 
-#include <deal.II/lac/trilinos_vector.h>
 #include <deal.II/lac/vector.h>
 
 namespace Nacre
@@ -23,13 +22,10 @@ namespace Nacre
   {
   public:
     /**
+     * @param state must live as long
      * @param points in the reference cell
-     * @param displacement ghosted (length); must live as long
      */
-    StrainValues(const Discretization                &discretization,
-                 const Quadrature<dim>               &points,
-                 const KinematicsOptions             &kinematics,
-                 const TrilinosWrappers::MPI::Vector &displacement);
+    StrainValues(const ShellState &state, const Quadrature<dim> &points);
 
     void
     reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell);
@@ -58,6 +54,18 @@ namespace Nacre
     /** The displacement (length). */
     Tensor<1, spacedim>
     displacement(const unsigned int q) const;
+
+    /** t - t0 of the unit normals, or Delta t (17) in linear kinematics (1). */
+    Tensor<1, spacedim>
+    normal_change(const unsigned int q) const;
+
+    /**
+     * The rotation vector that turns t0 into t by the shortest way: of the
+     * length of the angle along t0 x t; t0 x Delta t in linear kinematics
+     * (rad).
+     */
+    Tensor<1, spacedim>
+    rotation(const unsigned int q) const;
 
   private:
     static Voigt<>

@@ -5,11 +5,9 @@
 #define nacre_postprocess_vtu_output_h
 
 #include <nacre/base/selection.h>
-#include <nacre/forms/kinematics.h>
+#include <nacre/postprocess/shell_state.h>
 
 #include <deal.II/base/data_out_base.h>
-
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <map>
 #include <string>
@@ -61,18 +59,12 @@ namespace Nacre
                  DataComponentInterpretation::DataComponentInterpretation>;
 
     /**
-     * @param kinematics decides whether membrane strains are tied, see
-     *        recovers_tied_strain()
-     * @param displacement ghosted (length)
      * @param error_indicators by active cell index, if any
      * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
      */
-    ShellFields(const Discretization                &discretization,
-                const SectionLaw                    &section,
-                const KinematicsOptions             &kinematics,
-                const TrilinosWrappers::MPI::Vector &displacement,
-                const std::vector<double>           &error_indicators = {},
-                const unsigned int                   n_subdivisions   = 0);
+    ShellFields(const ShellState          &state,
+                const std::vector<double> &error_indicators = {},
+                const unsigned int         n_subdivisions   = 0);
 
     /**
      * One patch for each of this rank's cells; data[component][point], points
@@ -118,7 +110,9 @@ namespace Nacre
    * each group of ranks that owns cells, and `NAME_LABEL.pvtu` | `NAME.pvd` |
    * | hdf5 | linear, p x p for each | `NAME_LABEL.h5` | `NAME.xdmf` |
    *
-   * The label tells what a file holds; by default it is the counter.
+   * The label tells what a file holds; by default it is the counter. The
+   * files of ThickFields are always .vtu, `NAME_thick_LABEL.vtu`, listed by
+   * `NAME_thick.pvd`.
    *
    * In ParaView open the list and use "Warp By Vector" with the displacement.
    */
@@ -132,6 +126,8 @@ namespace Nacre
       unsigned int ranks_per_file = 16;
       /** Of each quadrilateral's edges; 0: the degree p. */
       unsigned int n_subdivisions = 0;
+      /** Whether ThickFields are written too. */
+      bool thick = false;
     };
 
     VtuOutput() = default;
@@ -169,14 +165,11 @@ namespace Nacre
      * file if one can't be written.
      */
     void
-    write(const Discretization                &discretization,
-          const SectionLaw                    &section,
-          const KinematicsOptions             &kinematics,
-          const TrilinosWrappers::MPI::Vector &ghosted_displacement,
-          const std::string                   &folder,
-          const std::string                   &name,
-          const Entry                         &entry,
-          const std::vector<double>           &error_indicators = {});
+    write(const ShellState          &state,
+          const std::string         &folder,
+          const std::string         &name,
+          const Entry               &entry,
+          const std::vector<double> &error_indicators = {});
 
     /** What has been written under this name. */
     const FieldRecords &
@@ -189,6 +182,13 @@ namespace Nacre
            const FieldRecords &written);
 
   private:
+    /** The bodies' files, beside those of an entry. */
+    void
+    write_thick(const ShellState  &state,
+                const std::string &folder,
+                const std::string &name,
+                const Entry       &entry);
+
     const Options options_;
     /** By folder and name. */
     std::map<std::string, FieldRecords> records_;

@@ -4,6 +4,7 @@
 #ifndef nacre_problem_shell_model_h
 #define nacre_problem_shell_model_h
 
+#include <nacre/mechanics/surface_axes.h>
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/element.h>
 #include <nacre/problem/exact_solution.h>
@@ -47,6 +48,9 @@ namespace Nacre
     KinematicsOptions kinematics     = {};
     /** The penalty's factor (15); none: twice the bound of each cell. */
     std::optional<double> eta = {};
+
+    /** The axes of stresses, forces and moments in the results. */
+    SurfaceAxes result_axes = {};
 
     /** @p time with the factor of loads and prescribed values there. */
     Instant

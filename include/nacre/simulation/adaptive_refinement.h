@@ -97,13 +97,12 @@ namespace Nacre
     goal() const;
 
     /**
-     * The error of a solution of @p model, at the time of its actions, or of a
-     * linear analysis; collective.
+     * The error of a solution, at the time of its actions, or of a linear
+     * analysis; collective.
      * @param dual the ghosted dual solution of goal(); unused without
      */
     ErrorEstimate
-    estimate(const ShellModel                    &model,
-             const SolvedShell                   &solution,
+    estimate(const SolvedShell                   &solution,
              const TrilinosWrappers::MPI::Vector &dual) const;
 
     /** Columns of the table that tell of the estimate. */

@@ -85,6 +85,21 @@ namespace Nacre
     AssemblyMethod                assembly_ = AssemblyMethod::fast;
   };
 
+  /** The section Output of a parameter file: the axes of results. */
+  class ResultAxesParameters : public ParameterAcceptor
+  {
+  public:
+    ResultAxesParameters();
+
+    /** Throws ExcMessage for what is no vector. */
+    SurfaceAxes
+    make(const Constants &constants) const;
+
+  private:
+    std::string direction_;
+    std::string top_ = "normal";
+  };
+
   /** The sections of a parameter file that describe a ShellProblem. */
   class ProblemParameters
   {
@@ -131,6 +146,7 @@ namespace Nacre
     ModeParameters              modes_;
     LinearSolverParameters      solver_;
     DiscretizationParameters    discretization_;
+    ResultAxesParameters        result_axes_;
   };
 } // namespace Nacre
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_point_quantities_h
+#define nacre_postprocess_point_quantities_h
+
+#include <nacre/postprocess/point_results.h>
+#include <nacre/postprocess/quantity_phrase.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * A stress, force, moment or rotation at a point of the mid-surface: a value
+   * of PointResults, not smoothed.
+   *
+   * | words | value | units |
+   * |---|---|---|
+   * | stress 11, 22, 12 FACE at (point) | e_i . S e_j at a face of the section,
+   * bottom, middle or top | force/length^2 |
+   * | principal stress 1, 2 FACE at (point) | its eigenvalues, 1 the larger one |
+   * force/length^2 |
+   * | von Mises stress FACE at (point) | | force/length^2 |
+   * | membrane force 11, 22, 12 at (point) | e_i . N e_j | force/length |
+   * | principal membrane force 1, 2 at (point) | eigenvalues |
+   * force/length |
+   * | moment 11, 22, 12 at (point) | e_i . M e_j, positive where it stretches
+   * the top; 11 is the moment of stresses along 1 | force |
+   * | principal moment 1, 2 at (point) | eigenvalues | force |
+   * | transverse shear 1, 2 at (point) | e_i . q, see TransverseShear |
+   * force/length |
+   * | rotation x, y, z, (a, b, c) at (point) | of the normal, about a direction
+   * of space, by the right hand's rule | rad |
+   *
+   * 1, 2 and the top are those of ShellModel::result_axes; `along DIRECTION`
+   * before `at` gives another axis 1, the projection of x, y, z or (a, b, c)
+   * onto the surface. On an edge between cells the value is that of the cell of
+   * the lowest index.
+   */
+  struct PointQuantity
+  {
+    enum class Kind
+    {
+      stress,
+      principal_stress,
+      von_mises_stress,
+      membrane_force,
+      principal_membrane_force,
+      moment,
+      principal_moment,
+      transverse_shear,
+      rotation
+    };
+
+    Kind kind;
+    /** i, j of a component, counted from 0. */
+    std::array<unsigned int, 2> component{{0, 0}};
+    Face                        face = Face::middle;
+    /** Of a rotation (1). */
+    Tensor<1, spacedim> direction = {};
+    /** The axis 1 is its projection; none: that of the model. */
+    std::optional<Tensor<1, spacedim>> axis  = {};
+    Point<spacedim>                    point = {};
+    /** The parameter, for messages. */
+    std::string where = {};
+  };
+
+  const Selection<PointQuantity::Kind> &selection(PointQuantity::Kind);
+
+  /** The largest or smallest stress of a shell. */
+  struct ExtremeStress
+  {
+    enum class Kind
+    {
+      largest_principal,
+      smallest_principal,
+      largest_von_mises
+    };
+
+    Kind kind;
+    Face face;
+  };
+
+  const Selection<ExtremeStress::Kind> &selection(ExtremeStress::Kind);
+
+  /**
+   * The quantity that a @p phrase begins with the name of, or none. Takes the
+   * words of it, and throws for those that are not understood.
+   */
+  std::optional<PointQuantity>
+  parse_point_quantity(QuantityPhrase &phrase, const Constants &constants);
+
+  std::optional<ExtremeStress>
+  parse_extreme_stress(QuantityPhrase &phrase);
+
+  /**
+   * The value; collective. Throws on all ranks if the point isn't on the
+   * mid-surface, and where an axis is normal to it.
+   */
+  double
+  evaluate_point_quantity(const ShellState    &state,
+                          const PointQuantity &quantity);
+
+  /** Over the nodes of all cells, each cell by itself; collective. */
+  double
+  evaluate_extreme_stress(const ShellState    &state,
+                          const ExtremeStress &quantity);
+} // namespace Nacre
+
+#endif
