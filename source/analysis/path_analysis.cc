@@ -22,6 +22,9 @@ namespace Nacre
     , integrator_(parameters.scheme,
                   parameters.spectral_radius,
                   parameters.mass_damping)
+    , step_control_(parameters.minimum_time_step,
+                    parameters.maximum_time_step,
+                    parameters.newton.max_iterations)
   {
     if (parameters.is_dynamic())
       {
@@ -89,10 +92,8 @@ namespace Nacre
           }
         if (!attempt.result.converged)
           {
-            state.next_step    = 0.5 * dt;
-            state.n_good_steps = 0;
             text << attempt.result.reason;
-            if (state.next_step < parameters_.minimum_time_step)
+            if (!step_control_.reject(state, dt))
               return text.str() + "." + kept.str() + " " +
                      remedy(attempt.result.kind, parameters_);
             messenger(text.str() + "; trying half the step");
@@ -109,27 +110,10 @@ namespace Nacre
         state.iterations        = attempt.result.iterations;
         state.residual          = attempt.result.last.residual;
         state.n_negative_pivots = attempt.result.last.n_negative_pivots;
-        adapt_step(state, attempt);
+        step_control_.accept(state, state.iterations);
         observer(state);
       }
     return "";
-  }
-
-  void
-  PathAnalysis::adapt_step(PathState &state, const Attempt &attempt) const
-  {
-    const double growth = 2.;
-    if (attempt.result.iterations > parameters_.newton.max_iterations / 2)
-      state.n_good_steps = 0;
-    else
-      ++state.n_good_steps;
-    if (state.n_good_steps >= 2 &&
-        state.next_step < parameters_.maximum_time_step)
-      {
-        state.next_step =
-          std::min(growth * state.next_step, parameters_.maximum_time_step);
-        state.n_good_steps = 0;
-      }
   }
 
   PathAnalysis::Attempt
