@@ -20,20 +20,24 @@ namespace Nacre
                    const std::vector<unsigned int> &numbers)
   {
     std::vector<unsigned int> patterns(rows.n_rows());
-    /** The first rows of the last pattern and of the one before. */
+    // The first rows of the two patterns that were met last.
     std::array<unsigned int, 2> known{{0, 0}};
     for (unsigned int i = 0; i < patterns.size(); ++i)
       {
-        const auto row         = rows[i];
-        const auto is_like_row = [&](const unsigned int other) {
+        const auto row     = rows[i];
+        const auto is_like = [&](const unsigned int other) {
           return other < i && rows[other].length == row.length &&
                  std::equal(row.columns,
                             row.columns + row.length,
                             rows[other].columns);
         };
-        const auto like = std::find_if(known.begin(), known.end(), is_like_row);
-        if (like != known.end())
-          patterns[i] = patterns[*like];
+        if (is_like(known[0]))
+          patterns[i] = patterns[known[0]];
+        else if (is_like(known[1]))
+          {
+            patterns[i] = patterns[known[1]];
+            std::swap(known[0], known[1]);
+          }
         else
           {
             patterns[i] = append(row, numbers);

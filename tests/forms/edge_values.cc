@@ -115,11 +115,10 @@ fill_shapes(const FEValuesBase<2, 3>        &fe_values,
 }
 
 void
-fill(const Edge                      &edge,
-     const std::vector<unsigned int> &node_dofs,
-     EdgePoints                      &points)
+fill(const Discretization &discretization, const Edge &edge, EdgePoints &points)
 {
-  const unsigned int n_sides = edge.at_boundary() ? 1 : 2;
+  const auto        &node_dofs = discretization.node_dofs();
+  const unsigned int n_sides   = edge.at_boundary() ? 1 : 2;
   points.sides.resize(n_sides);
   points.JxW                  = edge.get_JxW_values();
   const unsigned int n_points = points.JxW.size();
@@ -128,7 +127,12 @@ fill(const Edge                      &edge,
       const auto &fe_values = edge.get_fe_face_values(s);
       points.sides[s].resize(n_points);
       std::vector<types::global_dof_index> dofs(node_dofs.size());
-      fe_values.get_cell()->get_active_or_mg_dof_indices(dofs);
+      const auto                           plain = fe_values.get_cell();
+      const cell_iterator                  cell(&plain->get_triangulation(),
+                               plain->level(),
+                               plain->index(),
+                               &discretization.dof_handler());
+      cell->get_dof_indices(dofs);
       for (unsigned int q = 0; q < n_points; ++q)
         {
           SidePoint &point = points.sides[s][q];
@@ -273,7 +277,6 @@ void
 test(const std::string &name, const Mesh &mesh, const Element &element)
 {
   const auto   discretization = make_discretization(mesh, element);
-  const auto  &node_dofs      = discretization->node_dofs();
   Both         both(*discretization);
   EdgePoints   a, b;
   Differences  differences;
@@ -282,7 +285,7 @@ test(const std::string &name, const Mesh &mesh, const Element &element)
     Both::reinit(both.tables, edge...);
     Both::reinit(both.library, edge...);
     fill(both.tables, a);
-    fill(both.library, node_dofs, b);
+    fill(*discretization, both.library, b);
     AssertThrow(a.sides.size() == b.sides.size(), ExcInternalError());
     for (unsigned int s = 0; s < b.sides.size(); ++s)
       for (unsigned int q = 0; q < b.JxW.size(); ++q)
@@ -290,6 +293,10 @@ test(const std::string &name, const Mesh &mesh, const Element &element)
     differences["JxW"].add_all(a.JxW, b.JxW, b.JxW.size());
     ++n_edges;
   });
+  // Sums of N,ab X, of which little remains on flat cells.
+  auto &second = differences["phi0,ab"].size;
+  second =
+    std::max(second, differences["N,ab"].size * differences["position"].size);
   double worst = 0.;
   for (const auto &[kind, difference] : differences)
     {

@@ -36,9 +36,9 @@ namespace Nacre
     RowPatterns();
 
     /**
-     * Find the patterns of @p rows. Returns that of each row. A row shares the
-     * pattern of the row before it, or of the one before that pattern: a
-     * constrained dof may stand between others of its vertex.
+     * Find the patterns of @p rows. Returns that of each row. Rows are
+     * compared with the two patterns that were met last: a constrained dof may
+     * stand between others of its vertex.
      * @param numbers what to call each local column of @p rows
      */
     std::vector<unsigned int>
