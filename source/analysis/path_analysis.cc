@@ -24,6 +24,9 @@ namespace Nacre
     , integrator_(parameters.scheme,
                   parameters.spectral_radius,
                   parameters.mass_damping)
+    , step_control_(parameters.minimum_time_step,
+                    parameters.maximum_time_step,
+                    parameters.newton.max_iterations)
   {
     if (parameters.is_dynamic())
       {
@@ -91,10 +94,8 @@ namespace Nacre
           }
         if (!attempt.result.converged)
           {
-            state.next_step    = 0.5 * dt;
-            state.n_good_steps = 0;
             text << attempt.result.reason;
-            if (state.next_step < parameters_.minimum_time_step)
+            if (!step_control_.reject(state, dt))
               return text.str() + "." + kept.str() + " " +
                      remedy(attempt.result.kind, parameters_);
             callbacks.tell(text.str() + "; trying half the step");
@@ -106,7 +107,7 @@ namespace Nacre
         ++state.step;
         state.time = end;
         accept(state, std::move(attempt));
-        adapt_step(state);
+        step_control_.accept(state, state.iterations);
         if (callbacks.pauses && callbacks.pauses(state))
           return "";
         callbacks.observe(state);
@@ -159,7 +160,7 @@ namespace Nacre
             ++state.step;
             state.time = end;
             accept(state, std::move(attempt));
-            adapt_step(state);
+            step_control_.accept(state, state.iterations);
             // The undeformed shell's stability isn't known.
             if (before.step > 0 && !switches &&
                 before.n_negative_pivots != state.n_negative_pivots)
@@ -193,9 +194,11 @@ namespace Nacre
         // The branch is too near to the point that it leaves.
         const bool is_near =
           switches && attempt.result.kind == FailureKind::singular_tangent;
-        state.next_step *= is_near ? 2. : 0.5;
-        state.n_good_steps = 0;
-        if (state.next_step < parameters_.minimum_time_step ||
+        const bool may_go_on =
+          step_control_.reject(state,
+                               is_near ? 4. * state.next_step :
+                                         state.next_step);
+        if (!may_go_on ||
             (is_near && state.next_step > 100. * parameters_.time_step))
           return text.str() + ". The last good state is kept. " +
                  remedy(attempt.result.kind, parameters_);
@@ -346,23 +349,6 @@ namespace Nacre
     guess.motion.u.sadd(0.5, 0.5, attempt.motion.u);
     guess.motion.v = attempt.motion.v;
     return static_step(guess, end - state.time, false);
-  }
-
-  void
-  PathAnalysis::adapt_step(PathState &state) const
-  {
-    const double growth = 2.;
-    if (state.iterations > parameters_.newton.max_iterations / 2)
-      state.n_good_steps = 0;
-    else
-      ++state.n_good_steps;
-    if (state.n_good_steps >= 2 &&
-        state.next_step < parameters_.maximum_time_step)
-      {
-        state.next_step =
-          std::min(growth * state.next_step, parameters_.maximum_time_step);
-        state.n_good_steps = 0;
-      }
   }
 
   PathAnalysis::Attempt

@@ -279,13 +279,14 @@ namespace Nacre
     kinematics.model             = KinematicsModel::finite;
     kinematics.tangent           = TangentType::consistent;
     const ShellOperator finite(discretization_,
-                               model_.section,
-                               model_.supports,
-                               model_.loads,
-                               kinematics,
-                               model_.eta,
-                               model_.load_factor ? &*model_.load_factor :
-                                                    nullptr);
+                               ShellParts(model_.section,
+                                          model_.supports,
+                                          model_.loads,
+                                          kinematics,
+                                          model_.eta,
+                                          model_.load_factor ?
+                                            &*model_.load_factor :
+                                            nullptr));
     const Instant       instant = model_.at(time);
     Matrix              tangent;
     finite.reinit_matrix(constraints_, tangent);

@@ -6,6 +6,7 @@
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/solvers/direct_solver.h>
+#include <nacre/solvers/sparse_rows.h>
 
 #include <algorithm>
 #include <cmath>
@@ -295,16 +296,11 @@ namespace Nacre
     const double accuracy = 10. * std::numeric_limits<double>::epsilon();
     const double n_nodes  = 1. * u.size() / spacedim;
     const double distance = std::sqrt(area_ / n_nodes);
-    Vector       diagonal = owned_vector();
-    const int    ierr     = matrix_.trilinos_matrix().ExtractDiagonalCopy(
-      *diagonal.trilinos_vector()(0));
-    AssertThrow(ierr == 0, ExcTrilinosError(ierr));
-    double        energy   = 0.;
-    const double *u_values = u.trilinos_vector()[0];
-    const double *K_values = diagonal.trilinos_vector()[0];
-    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-      energy += std::abs(K_values[i]) *
-                (Utilities::fixed_power<2>(u_values[i]) + distance * distance);
+    const auto   diagonal = SparseRows(matrix_).diagonal();
+    double       energy   = 0.;
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      energy += std::abs(diagonal[i]) *
+                (Utilities::fixed_power<2>(u.begin()[i]) + distance * distance);
     return accuracy * accuracy *
            Utilities::MPI::sum(energy, discretization_.communicator());
   }

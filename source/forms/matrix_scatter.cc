@@ -5,7 +5,7 @@
 #include <nacre/forms/matrix_scatter.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace Nacre
 {
@@ -37,10 +37,8 @@ namespace Nacre
     , right_hand_side_(right_hand_side)
     , range_(matrix.local_range())
     , rows_(matrix)
-  {
-    patterns_.assign(range_.second - range_.first,
-                     numbers::invalid_unsigned_int);
-  }
+    , pattern_of_row_(patterns_.add(rows_))
+  {}
 
   void
   MatrixScatter::add(const FullMatrix<double>                   &local_matrix,
@@ -172,45 +170,23 @@ namespace Nacre
     places_.resize(runs_.size());
   }
 
-  unsigned int
-  MatrixScatter::pattern_of(const int row)
-  {
-    unsigned int &pattern = patterns_[row];
-    if (pattern != numbers::invalid_unsigned_int)
-      return pattern;
-    const int *const   columns = rows_[row].columns;
-    const unsigned int length  = rows_[row].length;
-    if (row > 0 && patterns_[row - 1] != numbers::invalid_unsigned_int &&
-        rows_[row - 1].length == length &&
-        std::equal(columns, columns + length, rows_[row - 1].columns))
-      return pattern = patterns_[row - 1];
-    pattern = pattern_starts_.size();
-    pattern_starts_.push_back(intervals_.size());
-    for (unsigned int k = 0; k < length; ++k)
-      if (k == 0 || columns[k] != columns[k - 1] + 1)
-        intervals_.push_back({columns[k], static_cast<int>(k)});
-    intervals_.push_back(
-      {std::numeric_limits<int>::max(), static_cast<int>(length)});
-    return pattern;
-  }
-
   void
   MatrixScatter::search(const unsigned int pattern)
   {
-    const Interval *const first    = &intervals_[pattern_starts_[pattern]];
-    const Interval       *interval = first;
+    const RowPatterns::Run *const first = patterns_.begin(pattern);
+    const RowPatterns::Run       *known = first;
     for (unsigned int r = 0; r < runs_.size(); ++r)
       {
         // Runs ascend for the most part.
         const int column = runs_[r].column;
-        if (column < interval->column)
-          interval = first;
-        while (interval[1].column <= column)
-          ++interval;
-        const int place = interval->place + (column - interval->column);
+        if (column < known->column)
+          known = first;
+        while (known[1].column <= column)
+          ++known;
+        const int place = known->place + (column - known->column);
         AssertThrow(
-          column >= interval->column &&
-            place + static_cast<int>(runs_[r].length) <= interval[1].place,
+          column >= known->column &&
+            place + static_cast<int>(runs_[r].length) <= known[1].place,
           ExcMessage("The sparse matrix has no entry for a local one."));
         places_[r] = {
           {static_cast<unsigned int>(place), runs_[r].local, runs_[r].length}};
@@ -263,7 +239,7 @@ namespace Nacre
               }
             const int row = static_cast<int>(row_run.global - range_.first + k);
             right_hand_side[row] += local_vector[i];
-            const unsigned int pattern = pattern_of(row);
+            const unsigned int pattern = pattern_of_row_[row];
             if (pattern != searched)
               search(searched = pattern);
             add_row(rows_[row].values,

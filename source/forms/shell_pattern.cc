@@ -58,11 +58,11 @@ namespace Nacre
     };
 
     /** Blocks of this rank's cells and ghosts, and which of them couple. */
-    class BlockPattern
+    class CoupledBlocks
     {
     public:
-      BlockPattern(const Discretization            &discretization,
-                   const AffineConstraints<double> &constraints)
+      CoupledBlocks(const Discretization            &discretization,
+                    const AffineConstraints<double> &constraints)
         : discretization_(discretization)
         , constraints_(constraints)
       {
@@ -313,7 +313,7 @@ namespace Nacre
     /** Columns that other ranks know, by the first dof of this rank's block. */
     std::map<Dof, Dofs>
     exchange_columns(const Discretization &discretization,
-                     BlockPattern         &pattern)
+                     CoupledBlocks        &pattern)
     {
       const MPI_Comm  communicator = discretization.communicator();
       const IndexSet &owned        = discretization.locally_owned_dofs();
@@ -408,7 +408,7 @@ namespace Nacre
       }
 
     private:
-      BlockPattern              pattern_;
+      CoupledBlocks             pattern_;
       const IndexSet           &owned_;
       std::map<Dof, Dofs>       foreign_;
       std::vector<unsigned int> coupled_;

@@ -56,17 +56,12 @@ namespace Nacre
     n_owned_ = owned.n_elements();
     rows_.assign(n_owned_ + ghosts.n_elements(), Row());
     diagonal_.assign(rows_.size(), 0.);
-    // The first pattern is that of rows that are not kept.
-    patterns_.assign(1, Pattern());
-    runs_.clear();
-    values_ = {};
+    patterns_ = RowPatterns();
+    values_   = {};
     add_rows(own_rows);
     if (is_parallel)
       add_rows(*further_rows_);
-    unsigned int longest = 0;
-    for (const auto &pattern : patterns_)
-      longest = std::max(longest, pattern.length);
-    gathered_.resize(longest);
+    gathered_.resize(patterns_.max_length());
   }
 
 
@@ -95,34 +90,13 @@ namespace Nacre
     for (const auto id : column_ids(matrix))
       local_columns.push_back(partitioner_->global_to_local(id));
 
-    const int   *last_columns = nullptr;
-    unsigned int last_length  = numbers::invalid_unsigned_int;
+    const auto patterns = patterns_.add(matrix, local_columns);
     for (unsigned int i = 0; i < matrix.n_rows(); ++i)
       {
         const auto [length, columns, values] = matrix[i];
-        if (length != last_length ||
-            !std::equal(columns, columns + length, last_columns))
-          {
-            Pattern pattern;
-            pattern.first  = runs_.size();
-            pattern.length = length;
-            for (unsigned int k = 0; k < length; ++k)
-              {
-                const unsigned int j = local_columns[columns[k]];
-                pattern.is_interior &= (j < n_owned_);
-                if (k > 0 && j == runs_.back().start + runs_.back().length)
-                  ++runs_.back().length;
-                else
-                  runs_.push_back({j, 1});
-              }
-            pattern.last = runs_.size();
-            patterns_.push_back(pattern);
-            last_columns = columns;
-            last_length  = length;
-          }
         const unsigned int row =
           partitioner_->global_to_local(matrix.global_row(i));
-        rows_[row] = {values, static_cast<unsigned int>(patterns_.size() - 1)};
+        rows_[row] = {values, patterns[i]};
         for (unsigned int k = 0; k < length; ++k)
           if (local_columns[columns[k]] == row)
             diagonal_[row] = values[k];
@@ -130,30 +104,43 @@ namespace Nacre
   }
 
 
-  void
-  LevelMatrix::get_columns(const unsigned int         i,
-                           std::vector<unsigned int> &columns) const
+  bool
+  LevelMatrix::is_interior(const unsigned int i) const
   {
-    const Pattern &pattern = patterns_[rows_[i].pattern];
-    columns.clear();
-    for (std::size_t r = pattern.first; r < pattern.last; ++r)
-      for (unsigned int k = 0; k < runs_[r].length; ++k)
-        columns.push_back(runs_[r].start + k);
+    const unsigned int pattern = rows_[i].pattern;
+    return std::all_of(patterns_.begin(pattern),
+                       patterns_.end(pattern),
+                       [&](const RowPatterns::Run &run) {
+                         const int length = (&run)[1].place - run.place;
+                         return run.column + length <= int(n_owned_);
+                       });
   }
 
 
   void
-  LevelMatrix::gather(const Pattern &pattern,
-                      const double  *x,
-                      double        *values) const
+  LevelMatrix::get_columns(const unsigned int         i,
+                           std::vector<unsigned int> &columns) const
   {
-    for (std::size_t r = pattern.first; r < pattern.last; ++r)
+    const unsigned int pattern = rows_[i].pattern;
+    columns.clear();
+    for (auto run = patterns_.begin(pattern); run != patterns_.end(pattern);
+         ++run)
+      for (int k = 0; k < run[1].place - run->place; ++k)
+        columns.push_back(run->column + k);
+  }
+
+
+  void
+  LevelMatrix::gather(const unsigned int pattern, const double *x) const
+  {
+    const auto last = patterns_.end(pattern);
+    for (auto run = patterns_.begin(pattern); run != last; ++run)
       {
-        const double      *source = x + runs_[r].start;
-        const unsigned int length = runs_[r].length;
-        for (unsigned int k = 0; k < length; ++k)
+        const double *source = x + run->column;
+        double       *values = gathered_.data() + run->place;
+        const int     length = run[1].place - run->place;
+        for (int k = 0; k < length; ++k)
           values[k] = source[k];
-        values += length;
       }
   }
 
@@ -176,10 +163,10 @@ namespace Nacre
             values[last - first] = rows_[i[last]].values;
             ++last;
           }
-        gather(patterns_[pattern], x, gathered_.data());
+        gather(pattern, x);
         // In a sweep from zero half of the entries are still zero: dofs are
         // numbered nearly in the order of the patches.
-        unsigned int length = patterns_[pattern].length;
+        unsigned int length = patterns_.length(pattern);
         while (length > 0 && gathered_[length - 1] == 0.)
           --length;
         DenseKernels::dot_products(last - first,
@@ -222,13 +209,12 @@ namespace Nacre
     residual(r, x, b);
     for (unsigned int i = 0; i < n_owned_; ++i)
       {
-        const Pattern &pattern = patterns_[rows_[i].pattern];
-        const double  *a       = rows_[i].values;
-        const double   b_i     = std::abs(b.begin()[i]);
-        double         scale   = b_i;
-        double         row_sum = 0.;
-        gather(pattern, x.begin(), gathered_.data());
-        for (unsigned int k = 0; k < pattern.length; ++k)
+        const double *a       = rows_[i].values;
+        const double  b_i     = std::abs(b.begin()[i]);
+        double        scale   = b_i;
+        double        row_sum = 0.;
+        gather(rows_[i].pattern, x.begin());
+        for (unsigned int k = 0; k < row_length(i); ++k)
           {
             scale += std::abs(a[k] * gathered_[k]);
             row_sum += std::abs(a[k]);

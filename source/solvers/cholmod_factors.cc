@@ -108,11 +108,11 @@ namespace Nacre
 
       void
       analyse(const Matrix           &matrix,
-              const MatrixPattern    &pattern,
+              const NonzeroEntries   &pattern,
               const std::vector<int> &place);
 
       bool
-      factorize(const Matrix &matrix, const MatrixPattern &pattern);
+      factorize(const Matrix &matrix, const NonzeroEntries &pattern);
 
       void
       substitute(double *x, const double *b);
@@ -136,7 +136,7 @@ namespace Nacre
 
       /** P A P^T's lower triangle by columns; null for lack of memory. */
       cholmod_sparse *
-      permuted_matrix(const Matrix &matrix, const MatrixPattern &pattern);
+      permuted_matrix(const Matrix &matrix, const NonzeroEntries &pattern);
 
       cholmod_common  common_;
       cholmod_factor *factor_ = nullptr;
@@ -149,7 +149,7 @@ namespace Nacre
     template <typename Index>
     void
     CholmodFactors<Index>::analyse(const Matrix           &matrix,
-                                   const MatrixPattern    &pattern,
+                                   const NonzeroEntries   &pattern,
                                    const std::vector<int> &place)
     {
       const SparseRows  A(matrix);
@@ -202,8 +202,8 @@ namespace Nacre
 
     template <typename Index>
     cholmod_sparse *
-    CholmodFactors<Index>::permuted_matrix(const Matrix        &matrix,
-                                           const MatrixPattern &pattern)
+    CholmodFactors<Index>::permuted_matrix(const Matrix         &matrix,
+                                           const NonzeroEntries &pattern)
     {
       const SparseRows      A(matrix);
       const Index           n      = matrix.m();
@@ -256,8 +256,8 @@ namespace Nacre
 
     template <typename Index>
     bool
-    CholmodFactors<Index>::factorize(const Matrix        &matrix,
-                                     const MatrixPattern &pattern)
+    CholmodFactors<Index>::factorize(const Matrix         &matrix,
+                                     const NonzeroEntries &pattern)
     {
       const NoThreads no_threads;
       cholmod_sparse *permuted = permuted_matrix(matrix, pattern);
@@ -298,7 +298,7 @@ namespace Nacre
     public:
       void
       analyse(const Matrix           &matrix,
-              const MatrixPattern    &pattern,
+              const NonzeroEntries   &pattern,
               const std::vector<int> &place) override
       {
         n_ = matrix.m();
@@ -321,7 +321,7 @@ namespace Nacre
       }
 
       bool
-      factorize(const Matrix &matrix, const MatrixPattern &pattern) override
+      factorize(const Matrix &matrix, const NonzeroEntries &pattern) override
       {
         const bool is_done = short_ ? short_->factorize(matrix, pattern) :
                                       long_->factorize(matrix, pattern);
@@ -332,10 +332,8 @@ namespace Nacre
       void
       substitute(Vector &x, const Vector &b) override
       {
-        double *const       x_values = x.trilinos_vector()[0];
-        const double *const b_values = b.trilinos_vector()[0];
-        short_ ? short_->substitute(x_values, b_values) :
-                 long_->substitute(x_values, b_values);
+        short_ ? short_->substitute(x.begin(), b.begin()) :
+                 long_->substitute(x.begin(), b.begin());
       }
 
       unsigned int

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/solvers/direct_solver.h>
+#include <nacre/solvers/elimination_order.h>
 #include <nacre/solvers/sparse_rows.h>
 #include <nacre/solvers/symmetric_factors.h>
 
@@ -104,7 +105,7 @@ namespace Nacre
     /** @return whether the matrix is regular. */
     bool
     factorize(const TrilinosMatrix &matrix);
-    /** Forget what another pattern of nonzero entries left. */
+    /** Forget what another set of nonzero entries left. */
     void
     take_pattern(const TrilinosMatrix &matrix);
     /** Have an analysis for @p new_method. */
@@ -126,7 +127,7 @@ namespace Nacre
     const TrilinosMatrix *matrix        = nullptr;
     bool                  is_factorised = false;
     unsigned int          n_analyses    = 0;
-    MatrixPattern         pattern;
+    NonzeroEntries        pattern;
     /** Of each unknown in the order of pivots, on rank 0. */
     std::vector<int> place;
     bool             is_ordered = false;
@@ -140,8 +141,8 @@ namespace Nacre
   void
   DirectSolver::Implementation::take_pattern(const TrilinosMatrix &new_matrix)
   {
-    MatrixPattern new_pattern(new_matrix);
-    const int     differs = !is_ordered || !(new_pattern == pattern);
+    NonzeroEntries new_pattern(new_matrix);
+    const int      differs = !is_ordered || !(new_pattern == pattern);
     if (Utilities::MPI::max(differs, communicator) == 0)
       return;
     factors.reset();
@@ -149,7 +150,7 @@ namespace Nacre
     is_ordered   = false;
     first_method = quickest_method();
     pattern      = std::move(new_pattern);
-    place        = pattern.fill_reducing_order(new_matrix);
+    place        = elimination_order(new_matrix);
     is_ordered   = true;
   }
 

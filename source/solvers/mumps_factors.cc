@@ -20,7 +20,7 @@ namespace Nacre
     struct Entries
     {
       Entries(const SymmetricFactors::Matrix &matrix,
-              const MatrixPattern            &pattern,
+              const NonzeroEntries           &pattern,
               const bool                      with_values);
 
       std::vector<MUMPS_INT> rows, columns;
@@ -29,7 +29,7 @@ namespace Nacre
 
 
     Entries::Entries(const SymmetricFactors::Matrix &matrix,
-                     const MatrixPattern            &pattern,
+                     const NonzeroEntries           &pattern,
                      const bool                      with_values)
     {
       const SparseRows A(matrix);
@@ -71,11 +71,11 @@ namespace Nacre
 
       void
       analyse(const Matrix           &matrix,
-              const MatrixPattern    &pattern,
+              const NonzeroEntries   &pattern,
               const std::vector<int> &place) override;
 
       bool
-      factorize(const Matrix &matrix, const MatrixPattern &pattern) override;
+      factorize(const Matrix &matrix, const NonzeroEntries &pattern) override;
 
       void
       substitute(Vector &x, const Vector &b) override;
@@ -180,7 +180,7 @@ namespace Nacre
 
     void
     MumpsFactors::analyse(const Matrix           &matrix,
-                          const MatrixPattern    &pattern,
+                          const NonzeroEntries   &pattern,
                           const std::vector<int> &place)
     {
       AssertThrow(matrix.m() < std::numeric_limits<MUMPS_INT>::max(),
@@ -203,7 +203,7 @@ namespace Nacre
 
 
     bool
-    MumpsFactors::factorize(const Matrix &matrix, const MatrixPattern &pattern)
+    MumpsFactors::factorize(const Matrix &matrix, const NonzeroEntries &pattern)
     {
       Entries    entries(matrix, pattern, true);
       MUMPS_INT &percent_more = mumps_.icntl[13];
@@ -231,7 +231,7 @@ namespace Nacre
       const unsigned int rank = Utilities::MPI::this_mpi_process(communicator_);
       std::vector<double> all(rank == 0 ? mumps_.n : 0);
 
-      int ierr = MPI_Gatherv(b.trilinos_vector()[0],
+      int ierr = MPI_Gatherv(b.begin(),
                              counts_[rank],
                              MPI_DOUBLE,
                              all.data(),
@@ -252,7 +252,7 @@ namespace Nacre
                           counts_.data(),
                           offsets_.data(),
                           MPI_DOUBLE,
-                          x.trilinos_vector()[0],
+                          x.begin(),
                           counts_[rank],
                           MPI_DOUBLE,
                           0,

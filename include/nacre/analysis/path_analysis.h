@@ -7,6 +7,7 @@
 #include <nacre/analysis/energy_ledger.h>
 #include <nacre/analysis/path_parameters.h>
 #include <nacre/analysis/shell_system.h>
+#include <nacre/analysis/step_control.h>
 
 #include <functional>
 #include <memory>
@@ -15,14 +16,10 @@
 namespace Nacre
 {
   /** Everything that a path goes on from, and what its last step took. */
-  struct PathState
+  struct PathState : StepSize
   {
     unsigned int step = 0;
     double       time = 0.;
-    /** Size of the next step. */
-    double next_step = 0.;
-    /** Good steps since the last change of size. */
-    unsigned int n_good_steps = 0;
     /**
      * With arc length v is the tangent of the path (length/time), so scaled
      * that next_step times |v| is the length of the next step.
@@ -190,13 +187,10 @@ namespace Nacre
     void
     accept(PathState &state, Attempt &&attempt) const;
 
-    /** The size of the next step from the iterations of the last one. */
-    void
-    adapt_step(PathState &state) const;
-
     const PathParameters    &parameters_;
     ShellSystem             &system_;
     const TimeIntegrator     integrator_;
+    const StepControl        step_control_;
     std::optional<MassTerms> mass_;
     /** In dynamics only. */
     std::optional<EnergyLedger> ledger_;

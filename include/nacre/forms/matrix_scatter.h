@@ -5,7 +5,7 @@
 #define nacre_forms_matrix_scatter_h
 
 #include <nacre/base/types.h>
-#include <nacre/solvers/sparse_rows.h>
+#include <nacre/solvers/row_patterns.h>
 
 #include <deal.II/base/types.h>
 
@@ -98,10 +98,6 @@ namespace Nacre
     int
     column_of(const types::global_dof_index dof) const;
 
-    /** The pattern of the @p row, found when it is first asked for. */
-    unsigned int
-    pattern_of(const int row);
-
     /** Set places_ for the rows of a pattern. */
     void
     search(const unsigned int pattern);
@@ -117,19 +113,8 @@ namespace Nacre
     /** Range of this rank's dofs. */
     const std::pair<types::global_dof_index, types::global_dof_index> range_;
     const SparseRows                                                  rows_;
-
-    /** Columns column, column + 1, ... of a row that stand at place, ... */
-    struct Interval
-    {
-      int column;
-      int place;
-    };
-    /** Of all patterns, one after another; each ends with a sentinel. */
-    std::vector<Interval> intervals_;
-    /** [pattern]: its first interval. */
-    std::vector<unsigned int> pattern_starts_;
-    /** [row]: its pattern, or invalid if not known yet. */
-    std::vector<unsigned int> patterns_;
+    RowPatterns                                                       patterns_;
+    const std::vector<unsigned int> pattern_of_row_;
 
     std::vector<Run> runs_;
     /** The first run beyond the block that is left out. */

@@ -5,7 +5,7 @@
 #define nacre_multigrid_level_matrix_h
 
 #include <nacre/base/types.h>
-#include <nacre/solvers/sparse_rows.h>
+#include <nacre/solvers/row_patterns.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -22,11 +22,8 @@ namespace Nacre
    * Rows of a distributed matrix for smoothers: the own rows, read where they
    * are, and copies of some rows of other ranks.
    *
-   * The columns of a row are kept as runs of consecutive local indices, and
-   * rows with the same columns share them: the dofs of a vertex, a line or a
-   * cell are numbered together and couple with the same dofs. A product then
-   * gathers the entries of the vector once for all these rows, and the rest
-   * are dense dot products.
+   * A product gathers the entries of the vector once for all rows of the same
+   * pattern, and the rest are dense dot products.
    *
    * Local indices are those of vectors of partitioner(): own entries first,
    * then the ghosts, which are all columns of all rows kept.
@@ -82,7 +79,7 @@ namespace Nacre
     unsigned int
     row_length(const unsigned int i) const
     {
-      return patterns_[rows_[i].pattern].length;
+      return patterns_.length(rows_[i].pattern);
     }
 
     const double *
@@ -97,10 +94,7 @@ namespace Nacre
 
     /** Whether all columns of the row @p i are this rank's. */
     bool
-    is_interior(const unsigned int i) const
-    {
-      return patterns_[rows_[i].pattern].is_interior;
-    }
+    is_interior(const unsigned int i) const;
 
     double
     diagonal(const unsigned int i) const
@@ -135,41 +129,26 @@ namespace Nacre
     struct Row
     {
       const double *values  = nullptr;
-      unsigned int  pattern = 0;
+      unsigned int  pattern = RowPatterns::empty;
     };
 
-    struct Run
-    {
-      unsigned int start;
-      unsigned int length;
-    };
-
-    /** The runs first ... last - 1, and the entries in all of them. */
-    struct Pattern
-    {
-      std::size_t  first       = 0;
-      std::size_t  last        = 0;
-      unsigned int length      = 0;
-      bool         is_interior = true;
-    };
-
-    /** Add the rows of @p matrix. */
+    /** Keep the rows of @p matrix, too. */
     void
     add_rows(const SparseRows &matrix);
 
+    /** Set gathered_ for the rows of a pattern. */
     void
-    gather(const Pattern &pattern, const double *x, double *values) const;
+    gather(const unsigned int pattern, const double *x) const;
 
     std::optional<SparseRows>                          further_rows_;
     std::shared_ptr<const Utilities::MPI::Partitioner> partitioner_;
 
-    unsigned int         n_owned_ = 0;
-    std::vector<Row>     rows_;
-    std::vector<Pattern> patterns_;
-    std::vector<Run>     runs_;
-    std::vector<double>  values_; // if copied
-    std::vector<double>  diagonal_;
-    /** Room for the entries of the longest row. */
+    unsigned int        n_owned_ = 0;
+    std::vector<Row>    rows_;
+    RowPatterns         patterns_;
+    std::vector<double> values_; // if copied
+    std::vector<double> diagonal_;
+    /** The entries of a vector at the columns of a row. */
     mutable AlignedVector<double> gathered_;
   };
 } // namespace Nacre

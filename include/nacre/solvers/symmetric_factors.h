@@ -4,7 +4,7 @@
 #ifndef nacre_solvers_symmetric_factors_h
 #define nacre_solvers_symmetric_factors_h
 
-#include <nacre/solvers/matrix_pattern.h>
+#include <nacre/solvers/nonzero_entries.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -29,7 +29,7 @@ namespace Nacre
      */
     virtual void
     analyse(const Matrix           &matrix,
-            const MatrixPattern    &pattern,
+            const NonzeroEntries   &pattern,
             const std::vector<int> &place) = 0;
 
     /**
@@ -38,7 +38,7 @@ namespace Nacre
      *   the method doesn't take
      */
     virtual bool
-    factorize(const Matrix &matrix, const MatrixPattern &pattern) = 0;
+    factorize(const Matrix &matrix, const NonzeroEntries &pattern) = 0;
 
     /** x = A^{-1} b, without refinement. */
     virtual void

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/solvers/matrix_pattern.h>
-#include <nacre/solvers/sparse_rows.h>
+#include <nacre/solvers/elimination_order.h>
+#include <nacre/solvers/row_patterns.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <amd.h>
 #include <metis.h>
 
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -19,17 +16,6 @@ namespace Nacre
 {
   namespace
   {
-    /** A pseudo-random number: Steele, Lea, Flood (2014), SplitMix64. */
-    std::uint64_t
-    scatter_bits(const std::uint64_t number)
-    {
-      std::uint64_t z = (number + 1) * 0x9e3779b97f4a7c15u;
-      z               = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-      z               = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-      return z ^ (z >> 31);
-    }
-
-
     /** Pieces of all ranks, one after the other, on rank 0. */
     std::vector<int>
     gather_on_host(const std::vector<int> &piece, const MPI_Comm comm)
@@ -110,27 +96,28 @@ namespace Nacre
 
 
     /**
-     * The representative of each row of this rank, the first row with the same
-     * neighbours (both count as neighbours of themselves), as global indices.
+     * The representative of each row of this rank, the first row of the same
+     * pattern, as global indices.
      */
     std::vector<int>
-    representatives(const SparseRows &A, const std::vector<std::uint64_t> &rows)
+    representatives(const SparseRows &A)
     {
-      std::vector<int>                       result(rows.size());
-      std::unordered_map<std::uint64_t, int> first;
-      first.reserve(rows.size() / 3 + 1);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        result[i] = (i > 0 && rows[i] == rows[i - 1]) ?
-                      result[i - 1] :
-                      first.emplace(rows[i], A.global_row(i)).first->second;
+      std::vector<int> result;
+      std::vector<int> of_pattern(A.n_rows() + 1, -1);
+      for (const unsigned int pattern : RowPatterns().add(A))
+        {
+          int &first = of_pattern[pattern];
+          if (first < 0)
+            first = A.global_row(result.size());
+          result.push_back(first);
+        }
       return result;
     }
 
 
     /**
      * Of each representative of this rank: itself, the number of
-     * representatives
-     * next to it, and these.
+     * representatives next to it, and these.
      */
     std::vector<int>
     neighbourhoods(const SparseRows &A, const std::vector<int> &own)
@@ -199,90 +186,14 @@ namespace Nacre
   } // namespace
 
 
-  void
-  check_finite(const bool         is_finite,
-               const std::string &what,
-               const MPI_Comm     communicator)
-  {
-    AssertThrow(Utilities::MPI::min(is_finite ? 1 : 0, communicator) == 1,
-                ExcMessage("The " + what +
-                           " of the linear system holds an infinite or "
-                           "undefined (NaN) number. Check the loads, the "
-                           "material and the surface's expressions."));
-  }
-
-
-  MatrixPattern::MatrixPattern(const Matrix &matrix)
-  {
-    const SparseRows           A(matrix);
-    std::vector<std::uint64_t> number(A.n_columns());
-    std::vector<int>           id(A.n_columns());
-    for (unsigned int j = 0; j < A.n_columns(); ++j)
-      {
-        id[j]     = A.global_column(j);
-        number[j] = scatter_bits(id[j]);
-      }
-
-    rows_.resize(A.n_rows());
-    stored_.resize(A.n_rows());
-    bool        is_finite = true;
-    std::size_t n_stored  = 0;
-    // Of entries below minus above the diagonal: sums of products of the row's
-    // and the column's number, which vanish for symmetric patterns.
-    std::uint64_t skew = 0, skew_stored = 0;
-    for (unsigned int i = 0; i < A.n_rows(); ++i)
-      {
-        const SparseRows::Row row      = A[i];
-        const int             i_global = A.global_row(i);
-        std::uint64_t         kept[2] = {0, 0}, stored[2] = {0, 0};
-        for (unsigned int k = 0; k < row.length; ++k)
-          {
-            const int j     = row.columns[k];
-            is_finite       = is_finite && std::isfinite(row.values[k]);
-            const int upper = id[j] > i_global;
-            if (id[j] == i_global)
-              continue;
-            n_stored += upper;
-            stored[upper] += number[j];
-            if (row.values[k] != 0.)
-              {
-                n_upper_ += upper;
-                kept[upper] += number[j];
-              }
-          }
-        const std::uint64_t own = scatter_bits(i_global);
-        rows_[i]                = kept[0] + kept[1] + own;
-        stored_[i]              = stored[0] + stored[1] + own;
-        skew += own * (kept[0] - kept[1]);
-        skew_stored += own * (stored[0] - stored[1]);
-      }
-    const MPI_Comm comm = matrix.get_mpi_communicator();
-    check_finite(is_finite, "matrix", comm);
-    std::uint64_t sums[2] = {skew, skew_stored};
-    Utilities::MPI::sum(ArrayView<const std::uint64_t>(sums, 2),
-                        comm,
-                        ArrayView<std::uint64_t>(sums, 2));
-    AssertThrow(sums[1] == 0,
-                ExcMessage("The direct solver takes symmetric matrices only: "
-                           "an entry is stored, the mirrored one is not."));
-    keeps_zeros_ = (sums[0] != 0);
-    if (keeps_zeros_)
-      {
-        rows_    = stored_;
-        n_upper_ = n_stored;
-      }
-    n_upper_ += A.n_rows();
-  }
-
-
   std::vector<int>
-  MatrixPattern::fill_reducing_order(const Matrix &matrix) const
+  elimination_order(const TrilinosWrappers::SparseMatrix &matrix)
   {
     const SparseRows A(matrix);
     const MPI_Comm   comm    = matrix.get_mpi_communicator();
     const bool       is_host = Utilities::MPI::this_mpi_process(comm) == 0;
 
-    const auto own            = representatives(A, stored_);
+    const auto own            = representatives(A);
     const auto pieces         = gather_on_host(neighbourhoods(A, own), comm);
     const auto representative = gather_on_host(own, comm);
 

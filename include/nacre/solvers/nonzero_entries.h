@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_solvers_matrix_pattern_h
-#define nacre_solvers_matrix_pattern_h
+#ifndef nacre_solvers_nonzero_entries_h
+#define nacre_solvers_nonzero_entries_h
 
 #include <nacre/solvers/linear_solver.h>
 
@@ -27,23 +27,23 @@ namespace Nacre
    * of pseudo-random numbers of its columns (mod 2^64), so that patterns cost
    * little to keep and to compare.
    */
-  class MatrixPattern
+  class NonzeroEntries
   {
   public:
     using Matrix = TrilinosWrappers::SparseMatrix;
 
     /** No rows at all. */
-    MatrixPattern() = default;
+    NonzeroEntries() = default;
 
     /**
      * That of @p matrix. Throws on all ranks if an entry isn't finite, or if
      * the stored entries aren't those of a symmetric matrix.
      */
-    explicit MatrixPattern(const Matrix &matrix);
+    explicit NonzeroEntries(const Matrix &matrix);
 
     /** Whether the rows of this rank are the same. */
     bool
-    operator==(const MatrixPattern &other) const
+    operator==(const NonzeroEntries &other) const
     {
       return keeps_zeros_ == other.keeps_zeros_ && rows_ == other.rows_;
     }
@@ -62,18 +62,9 @@ namespace Nacre
       return n_upper_;
     }
 
-    /**
-     * On rank 0, the place (from zero) of each unknown of @p matrix in an
-     * order of pivots that keeps the factors sparse; nothing on other ranks.
-     * Unknowns with the same neighbours, such as the displacements of a node,
-     * are one vertex of the graph that is ordered. Collective.
-     */
-    std::vector<int>
-    fill_reducing_order(const Matrix &matrix) const;
-
   private:
-    /** Of each row of this rank: the entries that count, all stored ones. */
-    std::vector<std::uint64_t> rows_, stored_;
+    /** Of each row of this rank: the entries that count. */
+    std::vector<std::uint64_t> rows_;
     std::size_t                n_upper_ = 0;
     /** a_ij is zero and a_ji is not, somewhere: then all are kept. */
     bool keeps_zeros_ = false;
