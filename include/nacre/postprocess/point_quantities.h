@@ -17,23 +17,19 @@ namespace Nacre
    * A stress, force, moment or rotation at a point of the mid-surface: a value
    * of PointResults, not smoothed.
    *
-   * | words | value | units |
-   * |---|---|---|
-   * | stress 11, 22, 12 FACE at (point) | e_i . S e_j at a face of the section,
-   * bottom, middle or top | force/length^2 |
-   * | principal stress 1, 2 FACE at (point) | its eigenvalues, 1 the larger one |
-   * force/length^2 |
-   * | von Mises stress FACE at (point) | | force/length^2 |
-   * | membrane force 11, 22, 12 at (point) | e_i . N e_j | force/length |
-   * | principal membrane force 1, 2 at (point) | eigenvalues |
-   * force/length |
-   * | moment 11, 22, 12 at (point) | e_i . M e_j, positive where it stretches
-   * the top; 11 is the moment of stresses along 1 | force |
-   * | principal moment 1, 2 at (point) | eigenvalues | force |
-   * | transverse shear 1, 2 at (point) | e_i . q, see TransverseShear |
-   * force/length |
-   * | rotation x, y, z, (a, b, c) at (point) | of the normal, about a direction
-   * of space, by the right hand's rule | rad |
+   * - `stress 11, 22, 12 FACE at (point)`: e_i . S e_j at a face of the
+   *   section, bottom, middle or top (force/length^2);
+   * - `principal stress 1, 2 FACE at (point)`: its eigenvalues, 1 the larger
+   *   one; `von Mises stress FACE at (point)` (force/length^2);
+   * - `membrane force 11, 22, 12 at (point)`: e_i . N e_j; `principal membrane
+   *   force 1, 2 at (point)`: its eigenvalues (force/length);
+   * - `moment 11, 22, 12 at (point)`: e_i . M e_j, positive where it stretches
+   *   the top; 11 is the moment of stresses along 1; `principal moment 1, 2 at
+   *   (point)`: its eigenvalues (force);
+   * - `transverse shear 1, 2 at (point)`: e_i . q, see TransverseShear
+   *   (force/length);
+   * - `rotation x, y, z, (a, b, c) at (point)`: of the normal, about a direction
+   *   of space, by the right hand's rule (rad).
    *
    * 1, 2 and the top are those of ShellModel::result_axes; `along DIRECTION`
    * before `at` gives another axis 1, the projection of x, y, z or (a, b, c)
