@@ -28,8 +28,8 @@ namespace Nacre
    *   (point)`: its eigenvalues (force);
    * - `transverse shear 1, 2 at (point)`: e_i . q, see TransverseShear
    *   (force/length);
-   * - `rotation x, y, z, (a, b, c) at (point)`: of the normal, about a direction
-   *   of space, by the right hand's rule (rad).
+   * - `rotation x, y, z, (a, b, c) at (point)`: of the normal, about a
+   *   direction of space, by the right hand's rule (rad).
    *
    * 1, 2 and the top are those of ShellModel::result_axes; `along DIRECTION`
    * before `at` gives another axis 1, the projection of x, y, z or (a, b, c)
