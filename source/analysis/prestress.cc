@@ -275,18 +275,10 @@ namespace Nacre
     const double gradient = largest_gradient(u);
     if (gradient == 0.)
       return;
-    KinematicsOptions kinematics = model_.kinematics;
-    kinematics.model             = KinematicsModel::finite;
-    kinematics.tangent           = TangentType::consistent;
-    const ShellOperator finite(discretization_,
-                               ShellParts(model_.section,
-                                          model_.supports,
-                                          model_.loads,
-                                          kinematics,
-                                          model_.eta,
-                                          model_.load_factor ?
-                                            &*model_.load_factor :
-                                            nullptr));
+    ShellParts parts(model_);
+    parts.kinematics.model   = KinematicsModel::finite;
+    parts.kinematics.tangent = TangentType::consistent;
+    const ShellOperator finite(discretization_, parts);
     const Instant       instant = model_.at(time);
     Matrix              tangent;
     finite.reinit_matrix(constraints_, tangent);

@@ -324,7 +324,7 @@ namespace Nacre
     auto row = recorder.make_row(last.shell(), record);
     if (adaptive_.is_on())
       adaptive_.add_to_row(last.shell(),
-                           adaptive_.estimate(problem_.model, last.shell(), {}),
+                           adaptive_.estimate(last.shell(), {}),
                            row);
     recorder.add(row, last.shell(), record);
   }
