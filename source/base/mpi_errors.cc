@@ -73,7 +73,7 @@ namespace Nacre
       return "out of memory. Use fewer refinements, a lower degree, or a "
              "machine with more memory.";
 #ifndef DEBUG
-    // Without its frame and the stack.
+    // Leave out deal.II's frame and the stack.
     if (const auto *internal = dynamic_cast<const ExceptionBase *>(&exception))
       {
         std::ostringstream out;
@@ -118,7 +118,7 @@ namespace Nacre
             print_error(*error);
             MPI_Abort(communicator, 1);
           }
-        // What is wrong differs between ranks in the place only.
+        // The messages of the ranks differ only in the place of the error.
         const std::string text = first_error(errors, *error);
         if (Utilities::MPI::this_mpi_process(communicator) == 0)
           print_error(text);

@@ -11,7 +11,7 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
-// Boost 1.74 includes a header of its own in a way that it tells off.
+// Boost 1.74 warns of a header that it includes itself.
 #define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>

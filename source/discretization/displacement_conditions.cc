@@ -277,7 +277,7 @@ namespace Nacre
     const auto nodes = average(raw_nodes);
     for (const auto &[id, conditions] : boundary_conditions_.edges())
       {
-        // Once for all boundary ids of an edge.
+        // An edge may have several boundary ids, but it has one plane.
         if (id != conditions.edge)
           continue;
         Vector3 plane;
@@ -380,7 +380,7 @@ namespace Nacre
   std::vector<DisplacementConditions::Component>
   DisplacementConditions::independent_components(const Node &node)
   {
-    // Orthonormal directions with their values, first come first.
+    // Each direction is made orthogonal to those that came before.
     std::vector<Component> basis;
     for (const auto &component : node.components)
       {
@@ -475,8 +475,8 @@ namespace Nacre
     if (conditions.empty())
       return;
     points_ = PointConstraints(discretization_, conditions, constraints_);
-    // All ranks know these lines: whatever depends on their dofs must not take
-    // eliminated ones for free.
+    // All ranks must know these lines, or some would take eliminated dofs for
+    // free ones.
     local_lines_.add_indices(points_.dofs().begin(), points_.dofs().end());
     AffineConstraints<double> all(local_lines_);
     all.merge(constraints_,

@@ -57,7 +57,10 @@ namespace Nacre
       double allowed;
       /** Largest angle between normals in a cell at the edge (rad). */
       double turn = 0.;
-      /** Along the edge, the other way in its plane, and the plane's normal. */
+      /**
+       * Unit vectors along the edge, across it in its plane, and normal to the
+       * plane.
+       */
       Vector3 along, sideways, fitted;
       /** Mean conormal orthogonal to the edge, of either sign. */
       Vector3 conormal;
@@ -102,8 +105,8 @@ namespace Nacre
 
     /**
      * The normal of a coordinate plane or else of a plane parallel to an axis
-     * that holds the edge as well, within @p angle (rad) of @p normal; if
-     * there is none, this.
+     * that holds the edge as well, within @p angle (rad) of @p normal. Returns
+     * @p normal if there is no such plane.
      */
     Vector3
     take_simple(const EdgeShape &edge,

@@ -256,8 +256,8 @@ namespace Nacre
     }
 
     /**
-     * Whether both are the displacement of one particle, or of two so near as
-     * those of the sides of a sharp fold.
+     * Whether both are the displacement of one particle, or of two that are as
+     * near to each other as those on the sides of a sharp fold.
      */
     bool
     are_same(const Weights &a, const Weights &b)
@@ -339,7 +339,8 @@ namespace Nacre
     for (const auto &part :
          Utilities::MPI::all_gather(communicator(), candidates))
       all.insert(all.end(), part.begin(), part.end());
-    // The lowest of the cells that share the point: on any number of ranks.
+    // The lowest of the cells that share the point is the same on any number of
+    // ranks.
     std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
       return a.id < b.id;
     });

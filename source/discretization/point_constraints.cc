@@ -224,7 +224,8 @@ namespace Nacre
           subtract(k, row, rows_(k, column));
         unsigned int pivot = 0;
         for (unsigned int j = 1; j < rows_.n(); ++j)
-          // The first of equal ones, in spite of round-off.
+          // Of coefficients that differ by round-off only, the first one is
+          // taken.
           if (std::abs(rows_(k, j)) > 1.000001 * std::abs(rows_(k, pivot)))
             pivot = j;
         // As precise as the mean conormals of edges.

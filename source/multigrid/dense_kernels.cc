@@ -23,27 +23,7 @@ namespace Nacre
                  const double        *x,
                  double              *products)
     {
-      unsigned int k = 0;
-      // Four at a time: x is read once, and the sums don't wait for each other.
-      for (; k + 4 <= n_rows; k += 4)
-        {
-          const double *a_0 = rows[k], *a_1 = rows[k + 1], *a_2 = rows[k + 2],
-                       *a_3 = rows[k + 3];
-          double s_0 = 0., s_1 = 0., s_2 = 0., s_3 = 0.;
-#pragma omp simd reduction(+ : s_0, s_1, s_2, s_3)
-          for (unsigned int j = 0; j < n; ++j)
-            {
-              s_0 += a_0[j] * x[j];
-              s_1 += a_1[j] * x[j];
-              s_2 += a_2[j] * x[j];
-              s_3 += a_3[j] * x[j];
-            }
-          products[k]     = s_0;
-          products[k + 1] = s_1;
-          products[k + 2] = s_2;
-          products[k + 3] = s_3;
-        }
-      for (; k < n_rows; ++k)
+      for (unsigned int k = 0; k < n_rows; ++k)
         {
           const double *a = rows[k];
           double        s = 0.;

@@ -164,13 +164,8 @@ namespace Nacre
             ++last;
           }
         gather(pattern, x);
-        // In a sweep from zero half of the entries are still zero: dofs are
-        // numbered nearly in the order of the patches.
-        unsigned int length = patterns_.length(pattern);
-        while (length > 0 && gathered_[length - 1] == 0.)
-          --length;
         DenseKernels::dot_products(last - first,
-                                   length,
+                                   patterns_.length(pattern),
                                    values.data(),
                                    gathered_.data(),
                                    products + first);

@@ -56,7 +56,7 @@ namespace Nacre
   } // namespace
 
 
-  /** All that a mesh of the hierarchy has. */
+  /** A mesh of the hierarchy with all that belongs to it. */
   struct MultigridSolver::Level
   {
     /** @name Other than on the finest level, built here */
@@ -126,7 +126,7 @@ namespace Nacre
     const bool            has_coarser_mesh = can_coarsen(fine.triangulation());
     if (!has_coarser_mesh && !has_lower_degree(fine))
       return false;
-    // Without a coarser mesh: the lowest degree on the same one.
+    // If no mesh is coarser, the next level has the lowest degree on this one.
     Element element = fine.element();
     if (!has_coarser_mesh)
       element.degree = lowest_degree;
@@ -226,7 +226,7 @@ namespace Nacre
       connect_levels(system.constraints);
     assemble_coarse_levels(system);
     bool is_definite = true;
-    // Coarse matrices give memory back before the finest level takes it.
+    // The coarse levels come first, since they free memory for the finest one.
     for (unsigned int l = n_levels(); l-- > 0;)
       {
         Level      &level  = *levels_[l];
@@ -234,7 +234,8 @@ namespace Nacre
         if (level.direct != nullptr)
           {
             level.matrix.reinit(matrix, IndexSet(matrix.m()));
-            // Of a deformed shell the coarse matrix may be anything.
+            // The coarse matrix of a deformed shell may be indefinite or hold
+            // NaN.
             is_definite &= std::isfinite(matrix.frobenius_norm()) &&
                            level.direct->try_factorize(matrix) &&
                            *level.direct->n_negative_pivots() == 0;
@@ -330,15 +331,16 @@ namespace Nacre
                 ExcIterationFailed("the residual is not a finite number"));
     if (r_norm == 0.)
       return;
-    // The patches' single precision has a range of its own.
+    // The right-hand side may lie beyond the range of the patches' single
+    // precision.
     level.b.equ(1. / r_norm, r);
     solve_coarser_levels(level.b);
     Vector u(level.matrix.partitioner()), Au(u), zero(u);
     level.to_coarser->prolongate_and_add(u, levels_[1]->x);
     u.update_ghost_values();
     level.matrix.residual(Au, u, zero);
-    // What is too stiff, or too soft, on a coarser level: the multiple with the
-    // least error in the energy norm.
+    // A coarser level may be too stiff or too soft. Take the multiple of its
+    // solution that has the least error in the energy norm.
     const double uAu = -(u * Au), ur = u * r;
     if (std::isfinite(ur) && std::isfinite(uAu) && uAu > 0.)
       {

@@ -29,7 +29,7 @@ namespace Nacre
     std::string
     kernel()
     {
-      // Looked up at run time, so that any other BLAS will do.
+      // The function is looked up at run time, so that any other BLAS will do.
       using Function      = char *(*)();
       const auto function = reinterpret_cast<Function>(
         dlsym(RTLD_DEFAULT, "openblas_get_corename"));

@@ -55,8 +55,8 @@ namespace Nacre
 
 
     /**
-     * Without threads while it lives: CHOLMOD starts four to copy blocks,
-     * whatever OMP_NUM_THREADS says, which cost more than they save.
+     * Switches threads off while it lives. CHOLMOD starts four to copy blocks,
+     * whatever OMP_NUM_THREADS says, and these cost more than they save.
      */
     class NoThreads
     {
@@ -292,7 +292,10 @@ namespace Nacre
     }
 
 
-    /** The factors with short indices, or with long ones where they must. */
+    /**
+     * The factors with int as index, or with long if there are too many
+     * entries.
+     */
     class Cholesky : public SymmetricFactors
     {
     public:

@@ -105,7 +105,7 @@ namespace Nacre
     /** @return whether the matrix is regular. */
     bool
     factorize(const TrilinosMatrix &matrix);
-    /** Forget what another set of nonzero entries left. */
+    /** Discard analysis and factors if the nonzero entries have changed. */
     void
     take_pattern(const TrilinosMatrix &matrix);
     /** Have an analysis for @p new_method. */
@@ -131,7 +131,9 @@ namespace Nacre
     /** Of each unknown in the order of pivots, on rank 0. */
     std::vector<int> place;
     bool             is_ordered = false;
-    /** The method to begin with: that of the last matrix, if it failed not. */
+    /**
+     * The method that is tried first: that of the last matrix unless it failed.
+     */
     Method                            first_method;
     Method                            method = none;
     std::unique_ptr<SymmetricFactors> factors;
@@ -185,7 +187,7 @@ namespace Nacre
         is_factorised = factors->factorize(new_matrix, pattern) &&
                         are_factors_good(new_matrix);
       }
-    // Of a row of indefinite matrices the next one is likely to be so, too.
+    // After an indefinite matrix the next one is likely to be indefinite, too.
     if (is_factorised)
       first_method =
         factors->n_negative_pivots() == 0 ? quickest_method() : method;

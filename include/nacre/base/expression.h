@@ -21,8 +21,8 @@ namespace dealii
 namespace Nacre
 {
   /**
-   * The value of a user's expression is not a finite number: maybe only from
-   * some time on, which ends a path and not what has been computed.
+   * Thrown if the value of a user's expression is not finite. In a path this
+   * may begin at some time: it ends the path, and earlier steps stay valid.
    */
   class ExcUndefinedValue : public StandardExceptions::ExcMessage
   {

@@ -23,7 +23,7 @@ namespace Nacre
     dealii::ConditionalOStream &
     progress();
 
-    /** What the run is made for, as the table of results; always printed. */
+    /** Print what the run is made for, such as the table, even if quiet. */
     dealii::ConditionalOStream &
     results();
 

@@ -18,7 +18,7 @@ namespace Nacre::Text
   std::string
   lower_case(std::string text);
 
-  /** 6 significant digits. */
+  /** The number with 6 significant digits. */
   std::string
   number(const double value);
 
@@ -41,7 +41,9 @@ namespace Nacre::Text
   std::string
   unquoted(const std::string &text);
 
-  /** The reverse: in quotes if a list couldn't hold the name without. */
+  /**
+   * The reverse: put the name in quotes if a list can't hold it without them.
+   */
   std::string
   quoted(const std::string &name);
 
@@ -64,10 +66,10 @@ namespace Nacre::Text
   /** "name, name: value", as lists of conditions, loads and regions hold. */
   struct Entry
   {
-    /** As they stand there, in quotes if they are. */
+    /** The names as they stand in the text, with their quotes. */
     std::vector<std::string> names;
     std::string              value;
-    /** The whole, for messages. */
+    /** The whole entry, for messages. */
     std::string text;
   };
 

@@ -60,8 +60,8 @@ namespace Nacre
   {
   public:
     /**
-     * @param mapping_degree degree of the geometry; 0 means isoparametric, and
-     *   for other than Lagrange cells there is nothing else
+     * @param mapping_degree degree of the geometry; 0 means isoparametric,
+     *   which is the only choice for cells other than Lagrange ones
      */
     Discretization(const Midsurface  &midsurface,
                    const MPI_Comm     communicator,
@@ -70,9 +70,9 @@ namespace Nacre
                    const unsigned int n_refinements);
 
     /**
-     * The same on a mesh handed over, with the positions of the nodes of the
-     * geometry (on a mesh of one rank, ordered as @p dof_handler's support
-     * points): see MappingQCache. For meshes that are no Midsurface.
+     * Take over a mesh that is no Midsurface's. @p position gives the positions
+     * of the nodes of the geometry (on a mesh of one rank, ordered as @p
+     * dof_handler's support points), as for MappingQCache.
      */
     Discretization(
       std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
@@ -170,8 +170,8 @@ namespace Nacre
     locate(const Point<spacedim> &point, const std::string &source) const;
 
     /**
-     * Say that the mesh is a coarser level of another one, on which locate()
-     * finds what the user states: here the nearest point will do.
+     * Mark the mesh as a coarser level of another one. Here locate() takes the
+     * nearest point: the finest level has checked what the user states.
      */
     void
     set_coarse_level()
@@ -193,8 +193,8 @@ namespace Nacre
     extent() const;
 
     /**
-     * Hand over the mesh, to refine it once this object is gone, which is all
-     * that may happen to it from then on.
+     * Give the mesh away. The caller may refine it, but only after this object
+     * has been destroyed, and may call nothing else of this object.
      */
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
     release_triangulation()

@@ -57,7 +57,7 @@ namespace Nacre
       std::array<types::global_dof_index, spacedim> dofs;
     };
 
-    /** All of them on all ranks, each once. */
+    /** All such nodes of all ranks, each of them once. */
     std::vector<HeldNode>
     held_nodes() const;
 
@@ -125,11 +125,16 @@ namespace Nacre
     std::vector<EdgeNode>
     collect_edge_nodes() const;
 
-    /** Nodes of all ranks from the plain numbers @p mine of each. */
+    /**
+     * Gather the nodes of all ranks, which send theirs as plain numbers @p
+     * mine.
+     */
     std::vector<EdgeNode>
     gather(const std::vector<double> &mine) const;
 
-    /** One entry a node and edge, with mean directions. */
+    /**
+     * Merge the entries of a node and an edge into one with mean directions.
+     */
     static std::vector<EdgeNode>
     average(const std::vector<EdgeNode> &nodes);
 
@@ -160,8 +165,8 @@ namespace Nacre
     constrain_points(const std::vector<PointCondition> &conditions);
 
     /**
-     * Orthonormal components that say the same as the node's, first come first;
-     * throws where they contradict each other.
+     * Make the components of a node orthonormal, one after the other, without
+     * changing what they prescribe. Throws where they contradict each other.
      */
     static std::vector<Component>
     independent_components(const Node &node);

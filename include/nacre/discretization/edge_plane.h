@@ -25,11 +25,11 @@ namespace Nacre
 
   /**
    * Unit normal of the plane that holds an edge: that of a symmetry or a
-   * diaphragm. The plane lies across the surface. A curved edge tells its
-   * plane by itself; of the planes that hold a nearly straight one, that is
-   * taken whose normal is the mean conormal. Coordinate planes, and planes
-   * parallel to an axis, are taken exactly where nodes and conormals can't
-   * tell them from the plane found.
+   * diaphragm. The plane lies across the surface. A curved edge determines its
+   * plane. Many planes hold a nearly straight edge; the normal of the one that
+   * is taken is the mean conormal. If nodes and conormals can't tell the plane
+   * from a coordinate plane, or from a plane parallel to an axis, that plane is
+   * taken exactly.
    *
    * Nodes may be off the plane by 2e-5 of the extent of the surface and 1e-7
    * of their coordinates, as those of files with 5 digits or in single

@@ -25,7 +25,7 @@ namespace Nacre
     /** Nodes whose shape functions don't vanish there, and their values. */
     std::vector<std::array<types::global_dof_index, spacedim>> dofs;
     std::vector<double>                                        weights;
-    /** Whether it is a node that hangs on no other ones. */
+    /** Whether the point is a node, and no hanging one. */
     bool is_node = false;
 
     template <typename Archive>
@@ -113,10 +113,10 @@ namespace Nacre
     values(const Vector &u) const;
 
     /**
-     * Change the displacement @p v of this rank's dofs so that its values()
-     * are @p targets, by displacements that fulfil all other conditions, as
-     * homogeneous ones. Then r . v of the residual r counts the support forces
-     * with the targets. Collective.
+     * Change the displacement @p v of this rank's dofs so that its values() are
+     * @p targets, by displacements that fulfil all other conditions, as
+     * homogeneous ones. Then r . v is, for the residual r, the sum of the
+     * support forces times the targets. Collective.
      */
     void
     set_values(const std::vector<double> &targets, Vector &v) const;
@@ -124,7 +124,9 @@ namespace Nacre
   private:
     using Line = std::vector<std::pair<types::global_dof_index, double>>;
 
-    /** A condition by dofs that hang on no other ones and by free dofs. */
+    /**
+     * A condition in terms of dofs that don't hang, and in terms of free dofs.
+     */
     struct Equation
     {
       Line   by_nodes;
@@ -150,7 +152,7 @@ namespace Nacre
     void
     check_dependent(const unsigned int k) const;
 
-    /** Value of an equation less what is known of it. */
+    /** The value of an equation minus its known part. */
     double
     right_hand_side(const unsigned int k) const;
 

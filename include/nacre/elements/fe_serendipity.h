@@ -64,11 +64,11 @@ namespace Nacre
     has_support_on_face(const unsigned int shape_index,
                         const unsigned int face_index) const override;
 
-    /** All ones. */
+    /** A constant function has the same value at all nodes. */
     std::pair<Table<2, bool>, std::vector<unsigned int>>
     get_constant_modes() const override;
 
-    /** Copies: dofs are values at the nodes. */
+    /** Copies the values, since dofs are values at the nodes. */
     void
     convert_generalized_support_point_values_to_dof_values(
       const std::vector<Vector<double>> &support_point_values,
@@ -116,7 +116,9 @@ namespace Nacre
     hp_quad_dof_identities(const FiniteElement<dim, spacedim> &other,
                            const unsigned int face_no = 0) const override;
 
-    /** Either of two elements of this kind, otherwise neither. */
+    /**
+     * Elements of this kind dominate each other; there is no order with others.
+     */
     FiniteElementDomination::Domination
     compare_for_domination(const FiniteElement<dim, spacedim> &other,
                            const unsigned int codim = 0) const override;

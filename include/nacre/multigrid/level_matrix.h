@@ -43,8 +43,8 @@ namespace Nacre
            const IndexSet                       &further_rows);
 
     /**
-     * Copy the values: a third of the matrix, its column numbers, is needed no
-     * longer.
+     * Copy the values, so that the matrix may be destroyed. This saves its
+     * column numbers, a third of its memory.
      */
     void
     copy_values();

@@ -29,8 +29,8 @@ namespace Nacre
   class Discretization;
 
   /**
-   * Transfer between two meshes of which each active cell of the fine one is
-   * an active cell of the coarse one or a child of one.
+   * Transfer between two meshes. Each active cell of the fine mesh is an active
+   * cell of the coarse one or the child of one.
    *
    * The prolongation P takes unconstrained coarse dofs to unconstrained fine
    * ones: it is the embedding of the space of a coarse cell into that of its

@@ -30,9 +30,8 @@ namespace Nacre
    * assembled there: the Galerkin product of a penalty would be twice as stiff
    * on each coarser level. The coarsest level is solved by a DirectSolver.
    *
-   * Deviating from the ways of deal.II's multigrid, this needs neither level
-   * dofs nor constraints of refinement edges, and works with whatever a
-   * Discretization can do.
+   * Unlike deal.II's multigrid, this needs neither level dofs nor constraints
+   * of refinement edges, and works with whatever a Discretization can do.
    */
   class MultigridSolver : public LinearSolver
   {
@@ -45,7 +44,7 @@ namespace Nacre
        * r . B r <= tolerance^2 u . K u.
        */
       double tolerance = 1e-9;
-      /** Without convergence after as many iterations prepare for failure. */
+      /** The solver fails if it hasn't converged after so many iterations. */
       unsigned int max_iterations = 60;
       /** Coarsen until the number of dofs is at most this. */
       unsigned int coarse_dofs = 30000;

@@ -75,7 +75,7 @@ namespace Nacre
     void
     relax(const Patch &patch, double *x, const double *b) const;
 
-    /** Let the ranks of a colour sweep their border, tell the others. */
+    /** Let the ranks of a colour sweep their border, and tell the others. */
     void
     sweep_border(const unsigned int colour,
                  const bool         backwards,

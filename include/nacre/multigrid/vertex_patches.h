@@ -31,8 +31,8 @@ namespace Nacre
      */
     star,
     /**
-     * All: those on the outer lines, too. At degree 2 the star holds too few
-     * functions, the iterations are half as many with these.
+     * All dofs of the cells, those on the outer lines included. At degree 2 the
+     * star holds too few functions: the closed star halves the iterations.
      */
     closed_star
   };

@@ -31,7 +31,7 @@ namespace Nacre
     improve(const Vector &u, Vector &du);
 
   private:
-    /** Keep what g has changed by over the change of u. */
+    /** Store the changes of u and of g since the last iteration. */
     void
     learn(const Vector &u, const Vector &du);
 

@@ -37,8 +37,9 @@ namespace Nacre
      */
     double backward_error = 0.;
     /**
-     * |dx| / |x| of the first step of refinement: what the condition number
-     * made of round-off; the digits of the solution are about -log10 of it.
+     * |dx| / |x| of the first step of refinement. It estimates the condition
+     * number times round-off: the solution has about -log10 of it correct
+     * digits.
      */
     double correction = 0.;
     /** Iterations of an iterative solver; 0 for a direct one. */
@@ -64,12 +65,12 @@ namespace Nacre
   };
 
   /**
-   * An iterative solver could not solve a system, and why: the iteration
-   * stagnates, or the matrix is not positive definite. Thrown on all ranks.
+   * Thrown on all ranks if an iterative solver can't solve a system. The text
+   * says why: the iteration stagnates, or the matrix is not positive definite.
    */
   DeclException1(ExcIterationFailed, std::string, << arg1);
 
-  /** Throw if a matrix is singular to working precision: what may cause it. */
+  /** Throw an error that names the likely causes if a matrix is not regular. */
   void
   check_regular(const bool is_regular);
 

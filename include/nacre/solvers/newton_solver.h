@@ -66,7 +66,7 @@ namespace Nacre
       Step last;
       /** |r| of the first linearisation. */
       double first_residual = 0.;
-      /** What it met if it failed, and why in words for the user. */
+      /** The kind of a failure, and its reason in words for the user. */
       FailureKind kind = FailureKind::no_convergence;
       std::string reason;
     };

@@ -22,9 +22,9 @@ namespace Nacre
                const MPI_Comm     communicator);
 
   /**
-   * Which entries of a symmetric matrix, distributed by rows, factors have to
-   * know: those that aren't zero, and the diagonal. A row is known by the sum
-   * of pseudo-random numbers of its columns (mod 2^64), so that patterns cost
+   * The entries of a symmetric matrix, distributed by rows, that factors have
+   * to know: the diagonal, and those that aren't zero. A row is represented by
+   * the sum of pseudo-random numbers of its columns (mod 2^64), which costs
    * little to keep and to compare.
    */
   class NonzeroEntries
@@ -36,7 +36,7 @@ namespace Nacre
     NonzeroEntries() = default;
 
     /**
-     * That of @p matrix. Throws on all ranks if an entry isn't finite, or if
+     * Those of @p matrix. Throws on all ranks if an entry isn't finite, or if
      * the stored entries aren't those of a symmetric matrix.
      */
     explicit NonzeroEntries(const Matrix &matrix);
@@ -66,7 +66,9 @@ namespace Nacre
     /** Of each row of this rank: the entries that count. */
     std::vector<std::uint64_t> rows_;
     std::size_t                n_upper_ = 0;
-    /** a_ij is zero and a_ji is not, somewhere: then all are kept. */
+    /**
+     * Whether some a_ij is zero and a_ji is not: all stored entries count then.
+     */
     bool keeps_zeros_ = false;
   };
 } // namespace Nacre

@@ -22,12 +22,13 @@ namespace Nacre
   using namespace dealii;
 
   /**
-   * The rows of a distributed sparse matrix that this rank holds, as arrays:
-   * for what deal.II's iterators are too slow for. Columns have local numbers,
-   * this rank's first, in the order of its rows.
+   * The rows of a distributed sparse matrix that this rank holds, as arrays.
+   * Assembly, smoothers and factors need them, since deal.II's iterators are
+   * too slow. Columns have local numbers, this rank's first, in the order of
+   * its rows.
    *
    * This class and make_sparse_rows() alone know the library behind
-   * TrilinosWrappers, Epetra; another one would be put here.
+   * TrilinosWrappers, Epetra. Whoever replaces it changes this file only.
    */
   class SparseRows
   {
@@ -94,7 +95,7 @@ namespace Nacre
     void
     set_arrays();
 
-    /** Of the copied rows; else none. */
+    /** The copied rows; null if the rows are read where they are. */
     std::shared_ptr<const Epetra_CrsMatrix> copy_;
     const Epetra_CrsMatrix                 *matrix_;
     int                                    *starts_  = nullptr;

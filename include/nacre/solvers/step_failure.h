@@ -8,7 +8,7 @@
 
 namespace Nacre
 {
-  /** What a step of a path may meet: no error, but a reason to cut it back. */
+  /** Why a step of a path fails. This is no error: a shorter step is tried. */
   enum class FailureKind
   {
     none,
@@ -18,7 +18,7 @@ namespace Nacre
     not_finite,
     /** The tangent is singular to working precision. */
     singular_tangent,
-    /** The iteration has converged to a deformation that can't be. */
+    /** The iteration has converged to an impossible deformation. */
     impossible_deformation,
     /** Dynamic relaxation finds no stable state. */
     no_stable_state
