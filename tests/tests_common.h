@@ -5,7 +5,7 @@
 #define nacre_tests_common_h
 
 #include <nacre/discretization/discretization.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/problem/shell_model.h>
 
@@ -289,13 +289,13 @@ namespace Tests
   /** The assembled matrix and load, constrained rows and columns included. */
   inline std::pair<FullMatrix<double>, Vector<double>>
   dense_system(const Discretization            &discretization,
-               const ShellOperator             &shell_operator,
+               const Assembly                  &assembly,
                const AffineConstraints<double> &constraints)
   {
     TrilinosWrappers::SparseMatrix matrix;
     TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
-    shell_operator.reinit_matrix(constraints, matrix);
-    shell_operator.assemble_system(constraints, matrix, load);
+    assembly.reinit_matrix(constraints, matrix);
+    assembly.assemble_system(constraints, matrix, load);
     const unsigned int                            n = matrix.m();
     std::pair<FullMatrix<double>, Vector<double>> dense;
     dense.first.reinit(n, n);

@@ -3,7 +3,7 @@
 
 #include <nacre/analysis/deformation_check.h>
 #include <nacre/discretization/shell_values.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/mechanics/corotational_strain.h>
 
 #include <algorithm>
@@ -280,13 +280,12 @@ namespace Nacre
   }
 
   std::string
-  find_torn_edge(const ShellOperator       &shell_operator,
+  find_torn_edge(const Assembly            &assembly,
                  const TrilinosVector      &u,
                  const PrescribedRotations &rotations,
                  const double               allowed)
   {
-    const auto gap =
-      shell_operator.rotation_conditions().largest_gap(u, rotations);
+    const auto gap = assembly.rotation_conditions().largest_gap(u, rotations);
     if (gap.angle <= allowed)
       return "";
     std::ostringstream text;

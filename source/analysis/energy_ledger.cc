@@ -31,7 +31,7 @@ namespace Nacre
     balance.is_kept = true;
     balance.kinetic = kinetic_energy(motion.v);
     balance.strain =
-      system_.shell_operator()
+      system_.assembly()
         .energies(system_.with_ghosts(motion.u), system_.actions())
         .total();
     balance.initial              = balance.kinetic + balance.strain;
@@ -74,10 +74,7 @@ namespace Nacre
                           0.,
                           step.conserves ? &step.step_start : nullptr};
     Vector        residual = system_.owned_vector();
-    system_.shell_operator().residual(mean,
-                                      system_.actions(),
-                                      residual,
-                                      &inertia);
+    system_.assembly().residual(mean, system_.actions(), residual, &inertia);
     double work = 0.;
     for (const auto &[dof, move] : moves)
       work += residual(dof) * move;
@@ -87,9 +84,9 @@ namespace Nacre
   EnergyBalance
   EnergyLedger::after_step(const EnergyBalance &before, const Step &step) const
   {
-    const ShellOperator &shell = system_.shell_operator();
-    EnergyBalance        after(before);
-    Vector               change(step.end.u), mean(step.end.u);
+    const Assembly &shell = system_.assembly();
+    EnergyBalance   after(before);
+    Vector          change(step.end.u), mean(step.end.u);
     change -= step.start.u;
     mean.sadd(0.5, 0.5, step.start.u);
     const Vector ghosted_mean = system_.with_ghosts(mean);

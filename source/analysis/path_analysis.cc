@@ -425,7 +425,7 @@ namespace Nacre
     const double allowed_gap =
       parameters_.is_dynamic() ? 0.75 * numbers::PI : 0.5 * numbers::PI;
     if (reason.empty())
-      reason = find_torn_edge(system_.shell_operator(),
+      reason = find_torn_edge(system_.assembly(),
                               u,
                               system_.actions().rotations,
                               allowed_gap);

@@ -51,11 +51,11 @@ namespace Nacre
   } // namespace
 
   Prestress::Prestress(const Discretization &discretization,
-                       const ShellOperator  &shell_operator,
+                       const Assembly       &assembly,
                        const ShellModel     &model,
                        const ModeOptions    &options)
     : discretization_(discretization)
-    , operator_(shell_operator)
+    , operator_(assembly)
     , model_(model)
     , options_(options)
   {
@@ -278,9 +278,9 @@ namespace Nacre
     ShellParts parts(model_);
     parts.kinematics.model   = KinematicsModel::finite;
     parts.kinematics.tangent = TangentType::consistent;
-    const ShellOperator finite(discretization_, parts);
-    const Instant       instant = model_.at(time);
-    Matrix              tangent;
+    const Assembly finite(discretization_, parts);
+    const Instant  instant = model_.at(time);
+    Matrix         tangent;
     finite.reinit_matrix(constraints_, tangent);
     Vector unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());

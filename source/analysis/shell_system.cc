@@ -27,18 +27,18 @@ namespace Nacre
   } // namespace
 
   ShellSystem::ShellSystem(const Discretization &discretization,
-                           const ShellOperator  &shell_operator,
+                           const Assembly       &assembly,
                            const ShellModel     &model,
                            LinearSolver         &solver)
     : discretization_(discretization)
-    , shell_operator_(shell_operator)
+    , assembly_(assembly)
     , model_(model)
     , size_(discretization.extent().second)
     , area_(MassTerms(discretization).total())
     , solver_(solver)
   {
     set_time(0.);
-    shell_operator_.reinit_matrix(constraints(), matrix_);
+    assembly_.reinit_matrix(constraints(), matrix_);
   }
 
   void
@@ -54,7 +54,7 @@ namespace Nacre
   void
   ShellSystem::set_load_time(const double time)
   {
-    actions_ = shell_operator_.actions(model_.at(time));
+    actions_ = assembly_.actions(model_.at(time));
   }
 
   void
@@ -70,7 +70,7 @@ namespace Nacre
                             const MassTerms &mass)
   {
     Vector force = owned_vector(), damping_force = owned_vector();
-    shell_operator_.residual(with_ghosts(u), actions_, force);
+    assembly_.residual(with_ghosts(u), actions_, force);
     mass.vmult(damping_force, with_ghosts(v));
     force.sadd(-1., -damping, damping_force);
 
@@ -93,11 +93,11 @@ namespace Nacre
   {
     has_tangent_  = false;
     Vector unused = owned_vector();
-    shell_operator_.assemble(with_ghosts(u),
-                             actions_,
-                             constraints(),
-                             matrix_,
-                             unused);
+    assembly_.assemble(with_ghosts(u),
+                       actions_,
+                       constraints(),
+                       matrix_,
+                       unused);
     double trace = 0.;
     for (const auto i : discretization_.locally_owned_dofs())
       trace += matrix_.diag_element(i);
@@ -164,13 +164,13 @@ namespace Nacre
     const Vector change = prescribed_change(before, after);
     Vector       force = owned_vector(), end_force = owned_vector(), end(u);
     end.add(-0.5, change);
-    shell_operator_.residual(with_ghosts(end),
-                             shell_operator_.actions(model_.at(before)),
-                             force);
+    assembly_.residual(with_ghosts(end),
+                       assembly_.actions(model_.at(before)),
+                       force);
     end.add(1., change);
-    shell_operator_.residual(with_ghosts(end),
-                             shell_operator_.actions(model_.at(after)),
-                             end_force);
+    assembly_.residual(with_ghosts(end),
+                       assembly_.actions(model_.at(after)),
+                       end_force);
     force -= end_force;
     force /= 2. * dt;
     const AffineConstraints<double> homogeneous = homogeneous_constraints();
@@ -372,8 +372,7 @@ namespace Nacre
     if (keeps_tangent)
       {
         const CpuSum time(assembly_seconds_);
-        energies_ =
-          shell_operator_.residual(u, actions_, right_hand_side, inertia);
+        energies_ = assembly_.residual(u, actions_, right_hand_side, inertia);
         right_hand_side *= -1.;
         condense(constraints, right_hand_side);
         return std::isfinite(right_hand_side.l2_norm()) ? StepFailure() :
@@ -382,12 +381,12 @@ namespace Nacre
     has_tangent_ = false;
     {
       const CpuSum time(assembly_seconds_);
-      energies_ = shell_operator_.assemble(u,
-                                           actions_,
-                                           constraints,
-                                           matrix_,
-                                           right_hand_side,
-                                           inertia);
+      energies_ = assembly_.assemble(u,
+                                     actions_,
+                                     constraints,
+                                     matrix_,
+                                     right_hand_side,
+                                     inertia);
     }
     if (!std::isfinite(energies_.total() + right_hand_side.l2_norm() +
                        matrix_.frobenius_norm()))
@@ -403,10 +402,8 @@ namespace Nacre
   {
     std::string where = find_impossible_state(discretization_, u);
     if (where.empty())
-      where = find_torn_edge(shell_operator_,
-                             u,
-                             actions_.rotations,
-                             0.5 * numbers::PI);
+      where =
+        find_torn_edge(assembly_, u, actions_.rotations, 0.5 * numbers::PI);
     std::ostringstream text;
     text << "the internal forces are infinite or not a number";
     if (!where.empty())
@@ -458,7 +455,7 @@ namespace Nacre
     // the free part of r . du is that of the condensed residual.
     const CpuSum time(assembly_seconds_);
     Vector       residual = owned_vector();
-    shell_operator_.residual(with_ghosts(u), actions_, residual, inertia);
+    assembly_.residual(with_ghosts(u), actions_, residual, inertia);
     Vector free(du);
     for (const auto &line : constraints().get_lines())
       if (line.entries.empty() &&

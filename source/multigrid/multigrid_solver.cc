@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/displacement_conditions.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/multigrid/coarse_mesh.h>
 #include <nacre/multigrid/level_matrix.h>
 #include <nacre/multigrid/level_transfer.h>
@@ -63,7 +63,7 @@ namespace Nacre
     //@{
     std::unique_ptr<Discretization>         own_discretization;
     std::unique_ptr<DisplacementConditions> conditions;
-    std::unique_ptr<ShellOperator>          shell_operator;
+    std::unique_ptr<Assembly>               assembly;
     TrilinosWrappers::SparseMatrix          own_matrix;
     //@}
 
@@ -145,10 +145,9 @@ namespace Nacre
                                                model_.supports,
                                                Instant(),
                                                conditions_);
-    level->shell_operator =
-      std::make_unique<ShellOperator>(*level->own_discretization,
-                                      model_,
-                                      TermSelection::with_tangent);
+    level->assembly = std::make_unique<Assembly>(*level->own_discretization,
+                                                 model_,
+                                                 TermSelection::with_tangent);
     level->discretization = level->own_discretization.get();
     if (level->discretization->dof_handler().n_dofs() >=
         fine.dof_handler().n_dofs())
@@ -196,24 +195,23 @@ namespace Nacre
         TrilinosVector unused(level.discretization->locally_owned_dofs(),
                               level.discretization->communicator());
         if (level.own_matrix.m() == 0)
-          level.shell_operator->reinit_matrix(constraints, level.own_matrix);
+          level.assembly->reinit_matrix(constraints, level.own_matrix);
         if (system.u == nullptr)
           {
-            level.shell_operator->assemble_system(constraints,
-                                                  level.own_matrix,
-                                                  unused);
+            level.assembly->assemble_system(constraints,
+                                            level.own_matrix,
+                                            unused);
             continue;
           }
         const TrilinosVector coarse_u =
           levels_[l - 1]->to_coarser->interpolate(l == 1 ? *system.u : u);
         u.reinit(coarse_u);
         u = coarse_u;
-        level.shell_operator->assemble(u,
-                                       level.shell_operator->actions(
-                                         system.instant),
-                                       constraints,
-                                       level.own_matrix,
-                                       unused);
+        level.assembly->assemble(u,
+                                 level.assembly->actions(system.instant),
+                                 constraints,
+                                 level.own_matrix,
+                                 unused);
       }
   }
 

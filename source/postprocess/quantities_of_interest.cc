@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/forms/mass_terms.h>
-#include <nacre/forms/shell_operator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/displacement_conditions.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
 
@@ -202,11 +202,12 @@ namespace Nacre
         supports.all ? shell.conditions.edges() : supports.edges;
       Vector3 moment;
       for (const auto id : edges)
-        moment -= shell.shell_operator.rotation_conditions().reaction(
-          id,
-          shell.displacement,
-          shell.actions.rotations,
-          has_deformed_levers(shell));
+        moment -=
+          shell.assembly.rotation_conditions().reaction(id,
+                                                        shell.displacement,
+                                                        shell.actions.rotations,
+                                                        has_deformed_levers(
+                                                          shell));
       return moment;
     }
   } // namespace
@@ -281,7 +282,7 @@ namespace Nacre
 
     Vector f(shell.discretization.locally_owned_dofs(),
              shell.discretization.communicator());
-    shell.shell_operator.loads(shell.displacement, f, shell.actions.loads);
+    shell.assembly.loads(shell.displacement, f, shell.actions.loads);
     loads = resultant(shell, f, origin);
     if (shell.mass == nullptr && !has_deformed_levers(shell))
       return;

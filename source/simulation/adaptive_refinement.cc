@@ -3,7 +3,7 @@
 
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/text.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/refinement_marking.h>
@@ -172,7 +172,7 @@ namespace Nacre
     CpuTimer             timer(communicator);
     const ErrorEstimator estimator(solution.discretization,
                                    solution.model,
-                                   solution.shell_operator.penalty());
+                                   solution.assembly.penalty());
     ErrorEstimate        result;
     const ErrorEstimator::Field u{&solution.displacement,
                                   true,

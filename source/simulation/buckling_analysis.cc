@@ -50,7 +50,7 @@ namespace Nacre
     modes.assembly += timer.lap();
     modes.state = prestress.solve(K, 1., shell.solver());
     timer.lap();
-    shell.shell_operator().reinit_matrix(prestress.constraints(), G);
+    shell.assembly().reinit_matrix(prestress.constraints(), G);
     prestress.add(modes.state, 1., -1., G);
     modes.assembly += timer.lap();
     const double full = G.frobenius_norm();

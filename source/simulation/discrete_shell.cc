@@ -57,7 +57,7 @@ namespace Nacre
     : problem_(problem)
     , discretization_(discretize(communicator, problem, std::move(mesh)))
     , conditions_(discretization_, problem.model.supports)
-    , operator_(discretization_, problem.model)
+    , assembly_(discretization_, problem.model)
   {
     // Inertia holds a shell as well.
     if (!problem.path.has_inertia())
@@ -76,7 +76,7 @@ namespace Nacre
   DiscreteShell::warn_of_penalty(Log &log) const
   {
     const auto  &eta   = problem_.model.eta;
-    const double bound = operator_.penalty().bound();
+    const double bound = assembly_.penalty().bound();
     if (!eta || *eta >= bound)
       return;
     std::ostringstream text;
@@ -125,6 +125,6 @@ namespace Nacre
   {
     const TrilinosWrappers::MPI::Vector zero   = ghosted_vector();
     TrilinosWrappers::MPI::Vector       unused = owned_vector();
-    operator_.residual(zero, operator_.actions(problem_.model.at(0.)), unused);
+    assembly_.residual(zero, assembly_.actions(problem_.model.at(0.)), unused);
   }
 } // namespace Nacre

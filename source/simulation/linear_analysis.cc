@@ -21,18 +21,16 @@ namespace Nacre
     : shell_(shell)
     , timer_(shell.discretization().communicator())
     , record_{setup_seconds, 0., 0., "", 0, 0.}
-    , actions_(shell.shell_operator().actions(Instant()))
+    , actions_(shell.assembly().actions(Instant()))
     , displacement_(solve(log))
     , dual_(goal != nullptr ? solve_dual(*goal) : Vector())
     , residual_(shell.owned_vector())
     , solved_{{shell.discretization(), shell.problem().model, displacement_},
-              shell.shell_operator(),
+              shell.assembly(),
               actions_,
               shell.conditions(),
               residual_,
-              shell.shell_operator().residual(displacement_,
-                                              actions_,
-                                              residual_)}
+              shell.assembly().residual(displacement_, actions_, residual_)}
   {
     warn_of_large_displacements(shell.discretization(), displacement_, log);
   }
@@ -51,11 +49,11 @@ namespace Nacre
       record_.assembly += timer_.lap();
     };
     if (shell_.problem().assembly == AssemblyMethod::fast)
-      assemble(shell_.shell_operator());
+      assemble(shell_.assembly());
     else
       assemble(ReferenceAssembly(shell_.discretization(),
                                  model,
-                                 shell_.shell_operator().penalty()));
+                                 shell_.assembly().penalty()));
 
     ChosenSolver &solver = shell_.solver();
     solver.prepare({matrix_, constraints});
@@ -63,7 +61,7 @@ namespace Nacre
     check_regular(accuracy.is_regular);
     record_.solver       = solver.name();
     record_.n_iterations = accuracy.n_iterations;
-    record_.eta          = shell_.shell_operator().penalty().eta();
+    record_.eta          = shell_.assembly().penalty().eta();
     record_.solve += timer_.lap();
     judge(accuracy, log);
 
@@ -83,7 +81,7 @@ namespace Nacre
             << (n_negative == 1 ? " negative pivot" : " negative pivots")
             << ". Study/Penalties: eta = " << record_.eta
             << " is too small; the bound is "
-            << shell_.shell_operator().penalty().bound() << ".";
+            << shell_.assembly().penalty().bound() << ".";
     AssertThrow(n_negative == 0, ExcMessage(message.str()));
     if (accuracy.correction <= 1e-5)
       return;
@@ -101,7 +99,7 @@ namespace Nacre
   LinearSolution::Vector
   LinearSolution::dual_load(const GoalFunctional &goal, Vector &edge) const
   {
-    const ShellOperator &shell_operator = shell_.shell_operator();
+    const Assembly &assembly = shell_.assembly();
     if (goal.load)
       return goal.load(shell_.discretization());
     // z = w - v with w the response to K v.
@@ -110,8 +108,8 @@ namespace Nacre
     Vector zero = shell_.ghosted_vector();
     v           = edge;
     Vector load = shell_.owned_vector(), without = shell_.owned_vector();
-    shell_operator.residual(zero, actions_, without);
-    shell_operator.residual(v, actions_, load);
+    assembly.residual(zero, actions_, without);
+    assembly.residual(v, actions_, load);
     load.add(-1., without);
     return load;
   }

@@ -72,7 +72,7 @@ namespace Nacre
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
     const Prestress prestress(shell.discretization(),
-                              shell.shell_operator(),
+                              shell.assembly(),
                               problem_.model,
                               problem_.modes);
     check_problem(shell, prestress);
@@ -84,12 +84,12 @@ namespace Nacre
     CpuTimer        timer(communicator_);
     DiscreteShell   shell(communicator_, problem_, nullptr, 1, log_);
     const Prestress prestress(shell.discretization(),
-                              shell.shell_operator(),
+                              shell.assembly(),
                               problem_.model,
                               problem_.modes);
     SolveRecord     record;
     record.setup  = timer.lap();
-    record.eta    = shell.shell_operator().penalty().eta();
+    record.eta    = shell.assembly().penalty().eta();
     record.solver = "direct";
     recorder.check_quantities(shell.discretization());
     check_problem(shell, prestress);
@@ -98,15 +98,15 @@ namespace Nacre
     record.solve      = timer.lap() - record.assembly;
 
     const ShellActions actions =
-      shell.shell_operator().actions(problem_.model.at(1.));
+      shell.assembly().actions(problem_.model.at(1.));
     Vector            residual = shell.owned_vector();
     const SolvedShell solved{
       {shell.discretization(), problem_.model, modes.state},
-      shell.shell_operator(),
+      shell.assembly(),
       actions,
       shell.conditions(),
       residual,
-      shell.shell_operator().residual(modes.state, actions, residual),
+      shell.assembly().residual(modes.state, actions, residual),
       nullptr,
       nullptr,
       {},

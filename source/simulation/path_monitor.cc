@@ -4,7 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/simulation/path_monitor.h>
 
 #include <cmath>

@@ -49,7 +49,7 @@ namespace Nacre
                  Log                                 &log)
       : shell(communicator, problem, std::move(mesh), 1, log)
       , system(shell.discretization(),
-               shell.shell_operator(),
+               shell.assembly(),
                problem.model,
                shell.solver())
       , path(problem.path, system, problem.model.section)
@@ -84,7 +84,7 @@ namespace Nacre
       , velocity_(system.with_ghosts(state.motion.v))
       , residual_(shell.owned_vector())
       , shell_{{shell.discretization(), shell.problem().model, displacement_},
-               shell.shell_operator(),
+               shell.assembly(),
                system.actions(),
                shell.conditions(),
                residual_,
@@ -110,20 +110,18 @@ namespace Nacre
            const PathAnalysis  &path,
            const ShellSystem   &system)
     {
-      const MassTerms *const mass           = path.dynamic_mass();
-      const ShellOperator   &shell_operator = shell.shell_operator();
+      const MassTerms *const mass     = path.dynamic_mass();
+      const Assembly        &assembly = shell.assembly();
       if (mass == nullptr)
-        return shell_operator.residual(displacement_,
-                                       system.actions(),
-                                       residual_);
+        return assembly.residual(displacement_, system.actions(), residual_);
       Vector w(state.motion.a);
       w.add(shell.problem().path.mass_damping, state.motion.v);
       const Vector  ghosted_w = system.with_ghosts(w);
       const Inertia inertia{*mass, ghosted_w, 0.};
-      return shell_operator.residual(displacement_,
-                                     system.actions(),
-                                     residual_,
-                                     &inertia);
+      return assembly.residual(displacement_,
+                               system.actions(),
+                               residual_,
+                               &inertia);
     }
 
     const Vector      displacement_;
@@ -180,7 +178,7 @@ namespace Nacre
       std::make_unique<SteppedShell>(communicator_, problem_, nullptr, log_);
     SolveRecord record;
     record.setup = timer.lap();
-    record.eta   = stepped->shell.shell_operator().penalty().eta();
+    record.eta   = stepped->shell.assembly().penalty().eta();
     recorder.check_quantities(stepped->shell.discretization());
 
     const ProblemRecord problem = current_problem(communicator_);

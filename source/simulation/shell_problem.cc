@@ -208,11 +208,11 @@ namespace Nacre
   {
     const KinematicsOptions &options = problem.model.kinematics;
     const bool linear_kinematics = (options.model == KinematicsModel::linear);
-    AssertThrow(
-      linear_kinematics || options.edge_form == EdgeForm::rotation_jump,
-      ExcMessage("Discretization/Edge form: co-rotational and finite "
-                 "kinematics have the rotation-jump form only; found '" +
-                 name_of(options.edge_form) + "'."));
+    AssertThrow(linear_kinematics ||
+                  options.edge_form == EdgeForm::rotation_jump,
+                ExcMessage("Discretization/Edge form: co-rotational and finite "
+                           "kinematics have 'rotation jump' only; found '" +
+                           name_of(options.edge_form) + "'."));
     AssertThrow(options.tangent != TangentType::consistent ||
                   options.model != KinematicsModel::corotational,
                 ExcMessage("Discretization/Tangent: 'consistent', the "

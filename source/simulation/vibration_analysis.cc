@@ -70,7 +70,7 @@ namespace Nacre
                                    const DiscreteShell             &shell,
                                    Matrix                          &M) const
   {
-    shell.shell_operator().reinit_matrix(constraints, M);
+    shell.assembly().reinit_matrix(constraints, M);
     Vector unused = shell.owned_vector();
     mass.assemble_system(constraints, shell.ghosted_vector(), M, unused);
     for (const auto &line : constraints.get_lines())
@@ -121,7 +121,7 @@ namespace Nacre
     if (problem_.modes.prestress != PrestressKind::none)
       {
         Matrix G;
-        shell.shell_operator().reinit_matrix(prestress.constraints(), G);
+        shell.assembly().reinit_matrix(prestress.constraints(), G);
         prestress.add(modes.state, 1., 1., G);
         K.add(1., G);
       }

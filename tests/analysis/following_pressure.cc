@@ -37,7 +37,7 @@ main(int argc, char **argv)
                                       Element{ElementType::lagrange, 2},
                                       0,
                                       0);
-  const ShellOperator            shell(discretization, model);
+  const Assembly                 shell(discretization, model);
   TrilinosWrappers::SparseMatrix matrix;
   shell.reinit_matrix(discretization.hanging_node_constraints(), matrix);
 

@@ -57,7 +57,7 @@ moment(const Discretization &discretization,
 struct Step
 {
   Step(const Discretization &discretization,
-       const ShellOperator  &shell_operator,
+       const Assembly       &assembly,
        const TrilinosVector &u_start,
        const TrilinosVector &u_end,
        const StepStart      &start,
@@ -71,7 +71,7 @@ struct Step
     const MassTerms mass(discretization);
     const auto      rest = zero_vector(discretization);
     const Inertia   inertia{mass, rest, 0., &start};
-    shell_operator.residual(mean, actions, force, &inertia);
+    assembly.residual(mean, actions, force, &inertia);
     work = force * change;
   }
 
@@ -82,20 +82,16 @@ struct Step
 void
 check_free(const std::string    &name,
            const Discretization &discretization,
-           const ShellOperator  &shell_operator)
+           const Assembly       &assembly)
 {
   for (const double angle : {0.3, 1.5})
     {
       const auto u_start = interpolate(discretization, large_motion(0.4, 0.05));
       const auto u_end =
         interpolate(discretization, large_motion(0.4 + angle, -0.1));
-      const Step   step(discretization,
-                      shell_operator,
-                      u_start,
-                      u_end,
-                      {u_start, {}});
-      const double U_start = shell_operator.energies(u_start).total();
-      const double U_end   = shell_operator.energies(u_end).total();
+      const Step step(discretization, assembly, u_start, u_end, {u_start, {}});
+      const double U_start = assembly.energies(u_start).total();
+      const double U_end   = assembly.energies(u_end).total();
       const auto   text    = name + ", turned by " + std::to_string(angle);
       check_below(text + ": work",
                   std::abs(step.work - (U_end - U_start)) / (U_start + U_end),
@@ -152,12 +148,12 @@ test_free_shells()
           options.model             = model;
           check_free(case_name(element, strain) + name_of(model),
                      *discretization,
-                     ShellOperator(*discretization,
-                                   ShellParts(parameters.section,
-                                              parameters.conditions,
-                                              parameters.loads,
-                                              options,
-                                              10.)));
+                     Assembly(*discretization,
+                              ShellParts(parameters.section,
+                                         parameters.conditions,
+                                         parameters.loads,
+                                         options,
+                                         10.)));
         }
     }
 }
@@ -177,27 +173,27 @@ test_prescribed_rotation(const KinematicsModel model)
       section_text(100., 0.3, 0.2),
     {ElementType::lagrange, 2});
   KinematicsOptions options(corotational(MembraneStrain::tied));
-  options.model               = model;
-  const auto   shell_operator = shell.make_operator(options);
-  const auto   u_start = interpolate(*shell.discretization, [](const auto &X) {
+  options.model         = model;
+  const auto   assembly = shell.make_operator(options);
+  const auto   u_start  = interpolate(*shell.discretization, [](const auto &X) {
     return 0.1 * some_field(X);
   });
-  const auto   u_end   = interpolate(*shell.discretization, [](const auto &X) {
+  const auto   u_end    = interpolate(*shell.discretization, [](const auto &X) {
     return -0.2 * some_field(X);
   });
-  const auto   before  = shell_operator->actions({0.5, 1.});
-  const auto   after   = shell_operator->actions({1.5, 1.});
-  const double U_start = shell_operator->energies(u_start, before).total();
-  const double U_end   = shell_operator->energies(u_end, after).total();
+  const auto   before   = assembly->actions({0.5, 1.});
+  const auto   after    = assembly->actions({1.5, 1.});
+  const double U_start  = assembly->energies(u_start, before).total();
+  const double U_end    = assembly->energies(u_end, after).total();
   const StepStart start{u_start, before.rotations};
   const Step      step(*shell.discretization,
-                  *shell_operator,
+                  *assembly,
                   u_start,
                   u_end,
                   start,
                   after);
   const double    rotation_work =
-    shell_operator->rotation_conditions().work(start, u_end, after.rotations);
+    assembly->rotation_conditions().work(start, u_end, after.rotations);
   const auto name = name_of(model) + ": prescribed rotation";
   check_below(name + ": work",
               std::abs(step.work + rotation_work - (U_end - U_start)) /
@@ -217,14 +213,13 @@ test_following_pressure()
                            "subsection Loads\n set Pressure = 2\n"
                            " set Pressure follows = true\nend\n";
   const Shell       shell(text, {ElementType::lagrange, 2});
-  const auto        shell_operator =
-    shell.make_operator(corotational(MembraneStrain::tied));
+  const auto assembly = shell.make_operator(corotational(MembraneStrain::tied));
   const auto volume_times_pressure = [&](const TrilinosVector &u) {
     TrilinosVector x = interpolate(*shell.discretization,
                                    [](const auto &X) { return Vector3(X); });
     x += u;
     TrilinosVector force(x);
-    shell_operator->loads(u, force);
+    assembly->loads(u, force);
     return force * x / 3.;
   };
   const auto u_start =
@@ -235,7 +230,7 @@ test_following_pressure()
   mean.sadd(0.5, 0.5, u_end);
   change -= u_start;
   const StepStart step_start{u_start, {}};
-  shell_operator->loads(mean, force, Instant(), &step_start);
+  assembly->loads(mean, force, Instant(), &step_start);
   const double start = volume_times_pressure(u_start);
   check_below(
     "following pressure: work",

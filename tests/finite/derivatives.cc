@@ -249,7 +249,7 @@ free_columns(const Discretization &discretization)
 void
 compare_derivatives(const std::string    &name,
                     const Discretization &discretization,
-                    const ShellOperator  &shell_operator,
+                    const Assembly       &assembly,
                     ComplexShell         &shell,
                     const bool            is_gradient)
 {
@@ -257,7 +257,7 @@ compare_derivatives(const std::string    &name,
   const auto columns = free_columns(discretization);
   const auto [matrix, force] =
     dense_tangent(discretization,
-                  shell_operator,
+                  assembly,
                   u,
                   discretization.hanging_node_constraints());
   ComplexVector u_complex(u.size());
@@ -344,13 +344,13 @@ test_mesh(const std::string   &name,
 {
   const auto discretization =
     make_discretization(difficult_mesh(hanging), degree);
-  const ShellOperator shell_operator(*discretization,
-                                     ShellParts(parameters.section,
-                                                parameters.conditions,
-                                                parameters.loads,
-                                                finite(MembraneStrain::tied),
-                                                7.));
-  ComplexShell        complex_shell(*discretization,
+  const Assembly assembly(*discretization,
+                          ShellParts(parameters.section,
+                                     parameters.conditions,
+                                     parameters.loads,
+                                     finite(MembraneStrain::tied),
+                                     7.));
+  ComplexShell   complex_shell(*discretization,
                              parameters.section,
                              nullptr,
                              nullptr,
@@ -358,7 +358,7 @@ test_mesh(const std::string   &name,
   compare_derivatives(name + "p = " + std::to_string(degree) +
                         (hanging ? ", hanging" : "") + ", opposite",
                       *discretization,
-                      shell_operator,
+                      assembly,
                       complex_shell,
                       true);
 }

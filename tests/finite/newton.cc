@@ -9,9 +9,7 @@
 
 /** The largest changes of a displacement, iteration by iteration. */
 std::vector<double>
-newton(const Shell         &shell,
-       const ShellOperator &shell_operator,
-       TrilinosVector      &u)
+newton(const Shell &shell, const Assembly &assembly, TrilinosVector &u)
 {
   const DisplacementConditions conditions(*shell.discretization,
                                           *shell.conditions);
@@ -19,7 +17,7 @@ newton(const Shell         &shell,
   for (unsigned int k = 1; k <= 30; ++k)
     {
       auto [matrix, force]       = dense_tangent(*shell.discretization,
-                                           shell_operator,
+                                           assembly,
                                            u,
                                            conditions.constraints());
       const unsigned int       n = force.size();

@@ -91,14 +91,14 @@ struct System
     : u(discretization.locally_owned_dofs(), MPI_COMM_WORLD)
     , residual(u)
   {
-    const ShellOperator shell_operator(discretization,
-                                       ShellParts(parameters.section,
-                                                  parameters.conditions,
-                                                  parameters.loads,
-                                                  {MembraneStrain::tied, form},
-                                                  10.));
+    const Assembly assembly(discretization,
+                            ShellParts(parameters.section,
+                                       parameters.conditions,
+                                       parameters.loads,
+                                       {MembraneStrain::tied, form},
+                                       10.));
     matrix = dense_system(discretization,
-                          shell_operator,
+                          assembly,
                           discretization.hanging_node_constraints())
                .first;
     // What the library puts on the diagonal of eliminated rows means nothing.
@@ -106,7 +106,7 @@ struct System
       if (discretization.hanging_node_constraints().is_constrained(i))
         matrix(i, i) = 0.;
     u        = interpolate(discretization, field);
-    energies = shell_operator.residual(u, residual);
+    energies = assembly.residual(u, residual);
   }
 
   FullMatrix<double> matrix;

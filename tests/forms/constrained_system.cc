@@ -102,19 +102,18 @@ test(const Parameters &parameters, const Element &element, const bool refined)
   const auto constraints    = make_constraints(*discretization);
   AffineConstraints<double> none(discretization->locally_relevant_dofs());
   none.close();
-  const ShellOperator            shell_operator(*discretization,
-                                     ShellParts(parameters.section,
-                                                parameters.conditions,
-                                                parameters.loads,
-                                                default_membrane_strain(
-                                                  element.type),
-                                                6. * element.degree));
+  const Assembly                 assembly(*discretization,
+                          ShellParts(parameters.section,
+                                     parameters.conditions,
+                                     parameters.loads,
+                                     default_membrane_strain(element.type),
+                                     6. * element.degree));
   TrilinosWrappers::SparseMatrix K, K_free;
   auto f = owned_vector(*discretization), f_free = f, x = f, r = f, r_free = f;
-  shell_operator.reinit_matrix(none, K);
-  shell_operator.reinit_matrix(constraints, K_free);
-  shell_operator.assemble_system(none, K, f);
-  shell_operator.assemble_system(constraints, K_free, f_free);
+  assembly.reinit_matrix(none, K);
+  assembly.reinit_matrix(constraints, K_free);
+  assembly.assemble_system(none, K, f);
+  assembly.assemble_system(constraints, K_free, f_free);
 
   for (const auto dof : discretization->locally_owned_dofs())
     if (!constraints.is_constrained(dof))

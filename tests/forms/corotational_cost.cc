@@ -34,11 +34,11 @@ main(int argc, char *argv[])
       constraints.close();
       const auto            u = interpolate(*discretization, some_field);
       std::array<double, 3> seconds{{1e100, 1e100, 1e100}};
-      std::array<std::unique_ptr<ShellOperator>, 3> operators;
+      std::array<std::unique_ptr<Assembly>, 3> operators;
       for (const auto model : {KinematicsModel::linear,
                                KinematicsModel::corotational,
                                KinematicsModel::finite})
-        operators[static_cast<int>(model)] = std::make_unique<ShellOperator>(
+        operators[static_cast<int>(model)] = std::make_unique<Assembly>(
           *discretization,
           ShellParts(parameters.section,
                      parameters.conditions,

@@ -56,10 +56,10 @@ struct Shell
                                                       0);
   }
 
-  std::unique_ptr<ShellOperator>
+  std::unique_ptr<Assembly>
   make_operator(const KinematicsOptions &options, const double eta = 7.) const
   {
-    return std::make_unique<ShellOperator>(
+    return std::make_unique<Assembly>(
       *discretization,
       ShellParts(*section, *conditions, *loads, options, eta));
   }
@@ -81,14 +81,14 @@ zero_vector(const Discretization &discretization)
 /** The tangent and the residual at @p u, constrained dofs included. */
 inline std::pair<FullMatrix<double>, Vector<double>>
 dense_tangent(const Discretization            &discretization,
-              const ShellOperator             &shell_operator,
+              const Assembly                  &assembly,
               const TrilinosVector            &u,
               const AffineConstraints<double> &constraints = no_constraints())
 {
   TrilinosWrappers::SparseMatrix matrix;
   auto                           force = zero_vector(discretization);
-  shell_operator.reinit_matrix(constraints, matrix);
-  shell_operator.assemble(u, constraints, matrix, force);
+  assembly.reinit_matrix(constraints, matrix);
+  assembly.assemble(u, constraints, matrix, force);
   const unsigned int                            n = matrix.m();
   std::pair<FullMatrix<double>, Vector<double>> dense;
   dense.first.reinit(n, n);

@@ -9,16 +9,14 @@
 
 /** Newton's method; returns iterations until |du| <= 1e-8 |u|. */
 unsigned int
-newton(const Shell         &shell,
-       const ShellOperator &shell_operator,
-       TrilinosVector      &u)
+newton(const Shell &shell, const Assembly &assembly, TrilinosVector &u)
 {
   const DisplacementConditions conditions(*shell.discretization,
                                           *shell.conditions);
   for (unsigned int k = 1; k <= 20; ++k)
     {
       auto [matrix, force]       = dense_tangent(*shell.discretization,
-                                           shell_operator,
+                                           assembly,
                                            u,
                                            conditions.constraints());
       const unsigned int       n = force.size();
@@ -82,10 +80,10 @@ test_cantilever(const Element       &element,
     {
       const auto name =
         case_name(element, strain) + "cantilever, " + name_of(tangent) + ": ";
-      const auto shell_operator =
+      const auto assembly =
         shell.make_operator(corotational(strain, tangent), 5.);
       auto u = zero_vector(*shell.discretization);
-      check_below(name + "iterations", newton(shell, *shell_operator, u), 8.5);
+      check_below(name + "iterations", newton(shell, *assembly, u), 8.5);
       const auto end =
         node_displacement(*shell.discretization, u, Point<3>(10., 0., 0.));
       check_below(name + "deflection",
@@ -124,10 +122,10 @@ test_roll_up(const Element       &element,
                              "; u=1: rotation = " + angle) +
                           "\nend\n",
                         element);
-      const auto shell_operator = shell.make_operator(corotational(strain), 5.);
+      const auto  assembly = shell.make_operator(corotational(strain), 5.);
       if (step == 1)
         u = zero_vector(*shell.discretization);
-      most = std::max(most, newton(shell, *shell_operator, u));
+      most = std::max(most, newton(shell, *assembly, u));
       if (step == 12)
         {
           const auto end =
@@ -136,7 +134,7 @@ test_roll_up(const Element       &element,
                       (end + Vector3{{10., 0., 0.}}).norm() / 10.,
                       coarse ? 0.05 : 2e-3);
           // E I (2 pi)^2 / (2 L)
-          const double energy = shell_operator->energies(u).total();
+          const double energy = assembly->energies(u).total();
           check_below(name + "energy",
                       std::abs(energy / (20. * numbers::PI * numbers::PI) - 1.),
                       coarse ? 0.09 : 5e-3);

@@ -382,15 +382,15 @@ print_costs()
         make_discretization(make_mesh(n, bend), degree);
       AffineConstraints<double> constraints;
       constraints.close();
-      const ShellOperator            shell_operator(*discretization,
-                                         ShellParts(parameters.section,
-                                                    parameters.conditions,
-                                                    parameters.loads,
-                                                    KinematicsOptions(),
-                                                    10.));
+      const Assembly                 assembly(*discretization,
+                              ShellParts(parameters.section,
+                                         parameters.conditions,
+                                         parameters.loads,
+                                         KinematicsOptions(),
+                                         10.));
       TrilinosWrappers::SparseMatrix matrix;
       TrilinosVector f(discretization->locally_owned_dofs(), MPI_COMM_WORLD);
-      shell_operator.reinit_matrix(constraints, matrix);
+      assembly.reinit_matrix(constraints, matrix);
       Both                  both(*discretization);
       std::array<double, 3> seconds{{1e100, 1e100, 1e100}};
       for (unsigned int k = 0; k < 9; ++k)
@@ -407,7 +407,7 @@ print_costs()
             Both::reinit(both.library, edge...);
           });
           keep(1, timer.lap());
-          shell_operator.assemble_system(constraints, matrix, f);
+          assembly.assemble_system(constraints, matrix, f);
           keep(2, timer.lap());
         }
       std::cout << "p = " << degree << ": microseconds a cell by tables "

@@ -101,14 +101,14 @@ energies_of(const Mesh       &mesh,
             const Parameters &parameters,
             const Element    &element)
 {
-  const auto          discretization = make_discretization(mesh, element);
-  const ShellOperator shell_operator(*discretization,
-                                     ShellParts(parameters.section,
-                                                parameters.conditions,
-                                                parameters.loads,
-                                                MembraneStrain::tied,
-                                                {}));
-  return shell_operator.energies(interpolate(*discretization, some_field));
+  const auto     discretization = make_discretization(mesh, element);
+  const Assembly assembly(*discretization,
+                          ShellParts(parameters.section,
+                                     parameters.conditions,
+                                     parameters.loads,
+                                     MembraneStrain::tied,
+                                     {}));
+  return assembly.energies(interpolate(*discretization, some_field));
 }
 
 void
@@ -154,17 +154,16 @@ test_residual(const Parameters &parameters, const Element &element)
   for (const auto membrane_strain :
        {MembraneStrain::tied, MembraneStrain::full, MembraneStrain::reduced})
     {
-      const ShellOperator       shell_operator(*discretization,
-                                         ShellParts(parameters.section,
-                                                    parameters.conditions,
-                                                    parameters.loads,
-                                                    membrane_strain,
-                                                    10.));
+      const Assembly            assembly(*discretization,
+                              ShellParts(parameters.section,
+                                         parameters.conditions,
+                                         parameters.loads,
+                                         membrane_strain,
+                                         10.));
       AffineConstraints<double> none;
       none.close();
-      const auto [matrix, load] =
-        dense_system(*discretization, shell_operator, none);
-      const auto     u = interpolate(*discretization, some_field);
+      const auto [matrix, load] = dense_system(*discretization, assembly, none);
+      const auto     u          = interpolate(*discretization, some_field);
       Vector<double> values(u.size()), product(u.size());
       for (unsigned int i = 0; i < u.size(); ++i)
         values[i] = u(i);
@@ -172,7 +171,7 @@ test_residual(const Parameters &parameters, const Element &element)
 
       TrilinosVector residual(discretization->locally_owned_dofs(),
                               MPI_COMM_WORLD);
-      const auto     energies = shell_operator.residual(u, residual);
+      const auto     energies = assembly.residual(u, residual);
       double         error    = 0.;
       for (unsigned int i = 0; i < u.size(); ++i)
         error = std::max(error, std::abs(residual(i) - product[i]));
@@ -197,12 +196,12 @@ smallest_eigenvalue(const Discretization        &discretization,
 {
   const auto membrane_strain =
     default_membrane_strain(discretization.element().type);
-  const ShellOperator shell_operator(
+  const Assembly assembly(
     discretization,
     ShellParts(section, conditions, loads, membrane_strain, eta));
   const auto &constraints = discretization.hanging_node_constraints();
   const auto  values =
-    eigenvalues(dense_system(discretization, shell_operator, constraints).first,
+    eigenvalues(dense_system(discretization, assembly, constraints).first,
                 constraints);
   return values[0] / values[values.size() - 1];
 }
@@ -297,8 +296,8 @@ struct Panel
                                         Element{ElementType::lagrange, 3},
                                         0,
                                         0);
-    const ShellOperator  shell_operator(discretization, parameters.model);
-    return shell_operator.energies(interpolate(discretization, field));
+    const Assembly       assembly(discretization, parameters.model);
+    return assembly.energies(interpolate(discretization, field));
   }
 
   TextModel parameters;

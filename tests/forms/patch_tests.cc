@@ -30,12 +30,12 @@ struct Case
 /** The residual of the solution @p u vanishes on all free dofs. */
 void
 test_residual(const std::string               &name,
-              const ShellOperator             &shell_operator,
+              const Assembly                  &assembly,
               const AffineConstraints<double> &constraints,
               const TrilinosVector            &u)
 {
   TrilinosVector residual(u);
-  shell_operator.residual(u, residual);
+  assembly.residual(u, residual);
   const double reactions = residual.linfty_norm();
   for (unsigned int i = 0; i < u.size(); ++i)
     if (constraints.is_constrained(i))
@@ -73,13 +73,13 @@ test_patch(const Case &patch, const bool passes = true)
                                       patch.mapping_degree,
                                       0);
   const DisplacementConditions   displacements(discretization, model.supports);
-  const ShellOperator            shell_operator(discretization, model);
+  const Assembly                 assembly(discretization, model);
   const auto                    &constraints = displacements.constraints();
   TrilinosWrappers::SparseMatrix matrix;
   TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
   TrilinosVector u(load);
-  shell_operator.reinit_matrix(constraints, matrix);
-  shell_operator.assemble_system(constraints, matrix, load);
+  assembly.reinit_matrix(constraints, matrix);
+  assembly.assemble_system(constraints, matrix, load);
   DirectSolver solver(MPI_COMM_WORLD);
   solver.factorize(matrix);
   solver.solve(u, load);
@@ -96,7 +96,7 @@ test_patch(const Case &patch, const bool passes = true)
     check_above(patch.name + ": no", error, patch.tolerance);
   check_below(patch.name + ": negative pivots", *solver.n_negative_pivots(), 1);
 
-  test_residual(patch.name, shell_operator, constraints, u);
+  test_residual(patch.name, assembly, constraints, u);
 }
 
 const std::string skew = "u + 0.3*v, v, 0";
@@ -284,7 +284,7 @@ test_load_resultants()
                                       Element{ElementType::lagrange, 3},
                                       0,
                                       0);
-  const ShellOperator  shell_operator(discretization, model);
+  const Assembly       assembly(discretization, model);
 
   // Centroid (0.65, 0.5), area 1, the edge v = 1 from (0.3, 1) to (1.3, 1). The
   // moment 0.2 works on theta = -1 when the plate turns about x.
@@ -296,11 +296,11 @@ test_load_resultants()
                                         0.65 * 2. - 0.5 * 1. - 0.5}};
   AffineConstraints<double>   none;
   none.close();
-  const auto load = dense_system(discretization, shell_operator, none).second;
+  const auto     load = dense_system(discretization, assembly, none).second;
   TrilinosVector residual(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
-  shell_operator.residual(interpolate(discretization,
-                                      [](const auto &) { return Vector3(); }),
-                          residual);
+  assembly.residual(interpolate(discretization,
+                                [](const auto &) { return Vector3(); }),
+                    residual);
   const auto load_work     = work_on_rigid_motions(discretization, load);
   const auto residual_work = work_on_rigid_motions(discretization, residual);
   double     error = 0., residual_error = 0.;

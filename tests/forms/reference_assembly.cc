@@ -62,8 +62,8 @@ compare(const std::string    &name,
         const ShellModel     &shell,
         const MembraneStrain  strain)
 {
-  const ShellParts    parts(shell.section, shell.supports, shell.loads, strain);
-  const ShellOperator fast(discretization, parts);
+  const ShellParts parts(shell.section, shell.supports, shell.loads, strain);
+  const Assembly   fast(discretization, parts);
   const ReferenceAssembly reference(discretization, parts, fast.penalty());
   // Without constraints: the diagonal of constrained dofs is arbitrary.
   AffineConstraints<double> none(discretization.locally_relevant_dofs());

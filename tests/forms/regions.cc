@@ -5,8 +5,8 @@
 // own: the material ids of cells reach the section.
 
 #include "../tests_common.h"
+#include <nacre/forms/assembly.h>
 #include <nacre/forms/mass_terms.h>
-#include <nacre/forms/shell_operator.h>
 
 using namespace Tests;
 

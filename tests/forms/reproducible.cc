@@ -116,29 +116,29 @@ main(int argc, char *argv[])
       auto mesh = panel_mesh();
       if (elements[e].type == ElementType::triangle)
         mesh.refined.clear();
-      const auto discretization = make_discretization(mesh, elements[e]);
-      const ShellOperator shell_operator(*discretization,
-                                         ShellParts(parameters.section,
-                                                    parameters.conditions,
-                                                    parameters.loads,
-                                                    default_membrane_strain(
-                                                      elements[e].type),
-                                                    6. * elements[e].degree));
-      TrilinosVector      u(discretization->locally_owned_dofs(),
+      const auto     discretization = make_discretization(mesh, elements[e]);
+      const Assembly assembly(*discretization,
+                              ShellParts(parameters.section,
+                                         parameters.conditions,
+                                         parameters.loads,
+                                         default_membrane_strain(
+                                           elements[e].type),
+                                         6. * elements[e].degree));
+      TrilinosVector u(discretization->locally_owned_dofs(),
                        discretization->locally_relevant_dofs(),
                        MPI_COMM_WORLD);
       // A temporary would be moved, and with it go the ghosts.
       const auto owned = owned_interpolant(*discretization, some_field);
       u                = owned;
-      TrilinosVector residual(discretization->locally_owned_dofs(),
+      TrilinosVector              residual(discretization->locally_owned_dofs(),
                               MPI_COMM_WORLD);
-      const Energies energies           = shell_operator.residual(u, residual);
-      const std::array<double, 5> found = {
-        {energies.membrane,
-         energies.bending,
-         energies.edge,
-         residual * owned_interpolant(*discretization, other_field),
-         residual.l2_norm()}};
+      const Energies              energies = assembly.residual(u, residual);
+      const std::array<double, 5> found    = {
+           {energies.membrane,
+            energies.bending,
+            energies.edge,
+            residual * owned_interpolant(*discretization, other_field),
+            residual.l2_norm()}};
       const char *const names[] = {"membrane energy",
                                    "bending energy",
                                    "edge energy",

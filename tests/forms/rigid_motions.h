@@ -58,13 +58,13 @@ rigid_motion(const Vector3 &w, const Vector3 &shift)
 /** Residual of @p field, relative to that of a deformation as large. */
 inline double
 relative_force(const Discretization &discretization,
-               const ShellOperator  &shell_operator,
+               const Assembly       &assembly,
                const VectorField    &field)
 {
   auto force = zero_vector(discretization);
   auto scale = zero_vector(discretization);
-  shell_operator.residual(interpolate(discretization, field), force);
-  shell_operator.residual(interpolate(discretization, some_field), scale);
+  assembly.residual(interpolate(discretization, field), force);
+  assembly.residual(interpolate(discretization, some_field), scale);
   return force.linfty_norm() / scale.linfty_norm();
 }
 
@@ -84,15 +84,15 @@ test_rigid_motion(
                                 MembraneStrain::full,
                                 MembraneStrain::reduced})
         {
-          const ShellOperator shell_operator(*discretization,
-                                             ShellParts(parameters.section,
-                                                        parameters.conditions,
-                                                        parameters.loads,
-                                                        options_of(strain),
-                                                        10.));
+          const Assembly assembly(*discretization,
+                                  ShellParts(parameters.section,
+                                             parameters.conditions,
+                                             parameters.loads,
+                                             options_of(strain),
+                                             10.));
           check_below("rigid motion, p = " + std::to_string(degree) + ", " +
                         name_of(strain),
-                      relative_force(*discretization, shell_operator, motion),
+                      relative_force(*discretization, assembly, motion),
                       1e-12);
         }
     }

@@ -41,19 +41,18 @@ test_mesh(const std::string    &name,
           const Element        &element,
           const MembraneStrain &membrane_strain)
 {
-  const auto          discretization = make_discretization(mesh, element);
-  const ShellOperator shell_operator(*discretization,
-                                     ShellParts(parameters.section,
-                                                parameters.conditions,
-                                                parameters.loads,
-                                                membrane_strain,
-                                                {}));
-  const auto          where =
+  const auto     discretization = make_discretization(mesh, element);
+  const Assembly assembly(*discretization,
+                          ShellParts(parameters.section,
+                                     parameters.conditions,
+                                     parameters.loads,
+                                     membrane_strain,
+                                     {}));
+  const auto     where =
     name + ", " + label(element) + ", " + name_of(membrane_strain);
 
-  const auto &constraints = discretization->hanging_node_constraints();
-  const auto  system =
-    dense_system(*discretization, shell_operator, constraints);
+  const auto  &constraints = discretization->hanging_node_constraints();
+  const auto   system  = dense_system(*discretization, assembly, constraints);
   const auto   values  = eigenvalues(system.first, constraints);
   const double largest = values[values.size() - 1];
   double       six     = 0.;
@@ -63,13 +62,14 @@ test_mesh(const std::string    &name,
   check_above(where + ": no other", values[6] / largest, 1e-8);
 
   const double scale =
-    shell_operator.energies(interpolate(*discretization, some_field)).total();
+    assembly.energies(interpolate(*discretization, some_field)).total();
   double energy = 0.;
   for (unsigned int k = 0; k < 6; ++k)
     {
-      const auto parts = shell_operator.energies(
-        interpolate(*discretization,
-                    [&](const auto &x) { return rigid_motion(k, x); }));
+      const auto parts =
+        assembly.energies(interpolate(*discretization, [&](const auto &x) {
+          return rigid_motion(k, x);
+        }));
       energy = std::max({energy,
                          std::abs(parts.membrane) / scale,
                          std::abs(parts.bending) / scale,

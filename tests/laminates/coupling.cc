@@ -23,8 +23,8 @@ matrix_of(const Discretization        &discretization,
           const MembraneStrain         strain,
           const std::optional<double> &eta = {})
 {
-  const ShellOperator       fast(discretization,
-                           ShellParts(section, conditions, loads, strain, eta));
+  const Assembly            fast(discretization,
+                      ShellParts(section, conditions, loads, strain, eta));
   AffineConstraints<double> none;
   none.close();
   return dense_system(discretization, fast, none).first;
@@ -39,7 +39,7 @@ test_assembly(const std::string        &name,
 {
   const auto                discretization = make_discretization(mesh, element);
   const ShellParts          parts(p.section, p.conditions, p.loads, strain);
-  const ShellOperator       fast(*discretization, parts);
+  const Assembly            fast(*discretization, parts);
   const ReferenceAssembly   reference(*discretization, parts, fast.penalty());
   AffineConstraints<double> none;
   none.close();
@@ -106,16 +106,14 @@ test_orientation()
 {
   const LaminateParameters p(coupled_stack);
   const auto energy_on = [&](const Mesh &mesh, const Element &element) {
-    const auto          discretization = make_discretization(mesh, element);
-    const ShellOperator shell_operator(*discretization,
-                                       ShellParts(p.section,
-                                                  p.conditions,
-                                                  p.loads,
-                                                  default_membrane_strain(
-                                                    element.type),
-                                                  {}));
-    return shell_operator.energies(interpolate(*discretization, some_field))
-      .total();
+    const auto     discretization = make_discretization(mesh, element);
+    const Assembly assembly(*discretization,
+                            ShellParts(p.section,
+                                       p.conditions,
+                                       p.loads,
+                                       default_membrane_strain(element.type),
+                                       {}));
+    return assembly.energies(interpolate(*discretization, some_field)).total();
   };
   for (const auto &element : {lagrange(2), lagrange(3), serendipity})
     {
@@ -199,17 +197,16 @@ test_definite()
                   values[6] / largest,
                   1e-9);
       // At the bound itself nothing is negative yet.
-      const ShellOperator shell_operator(
+      const Assembly assembly(
         *discretization,
         ShellParts(p.section, p.conditions, p.loads, MembraneStrain::tied, {}));
-      const auto at_bound =
-        eigenvalues(matrix_of(*discretization,
-                              p.section,
-                              p.conditions,
-                              p.loads,
-                              MembraneStrain::tied,
-                              shell_operator.penalty().bound()),
-                    none);
+      const auto at_bound = eigenvalues(matrix_of(*discretization,
+                                                  p.section,
+                                                  p.conditions,
+                                                  p.loads,
+                                                  MembraneStrain::tied,
+                                                  assembly.penalty().bound()),
+                                        none);
       check_above("lowest eigenvalue at the bound, " + label(element),
                   at_bound[0] / largest,
                   -1e-13);
@@ -259,13 +256,13 @@ test_patch(const Element &element)
                                       0,
                                       0);
   const DisplacementConditions   displacements(discretization, model.supports);
-  const ShellOperator            shell_operator(discretization, model);
+  const Assembly                 assembly(discretization, model);
   const auto                    &constraints = displacements.constraints();
   TrilinosWrappers::SparseMatrix matrix;
   TrilinosVector load(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
   TrilinosVector solution(load);
-  shell_operator.reinit_matrix(constraints, matrix);
-  shell_operator.assemble_system(constraints, matrix, load);
+  assembly.reinit_matrix(constraints, matrix);
+  assembly.assemble_system(constraints, matrix, load);
   DirectSolver solver(MPI_COMM_WORLD);
   solver.factorize(matrix);
   solver.solve(solution, load);

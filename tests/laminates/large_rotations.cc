@@ -23,13 +23,12 @@ struct Shell
   Shell(const Mesh &mesh, const Element &element, const KinematicsModel model)
     : parameters(coupled_stack)
     , discretization(make_discretization(mesh, element))
-    , shell_operator(*discretization,
-                     ShellParts(parameters.section,
-                                parameters.conditions,
-                                parameters.loads,
-                                options(default_membrane_strain(element.type),
-                                        model),
-                                7.))
+    , assembly(*discretization,
+               ShellParts(parameters.section,
+                          parameters.conditions,
+                          parameters.loads,
+                          options(default_membrane_strain(element.type), model),
+                          7.))
   {
     none.close();
   }
@@ -39,8 +38,8 @@ struct Shell
   {
     TrilinosWrappers::SparseMatrix matrix;
     TrilinosVector                 force(u);
-    shell_operator.reinit_matrix(none, matrix);
-    shell_operator.assemble(u, none, matrix, force);
+    assembly.reinit_matrix(none, matrix);
+    assembly.assemble(u, none, matrix, force);
     FullMatrix<double> K(matrix.m(), matrix.n());
     for (unsigned int i = 0; i < K.m(); ++i)
       for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
@@ -52,13 +51,13 @@ struct Shell
   residual(const TrilinosVector &u) const
   {
     TrilinosVector force(u);
-    shell_operator.residual(u, force);
+    assembly.residual(u, force);
     return force;
   }
 
   LaminateParameters              parameters;
   std::unique_ptr<Discretization> discretization;
-  ShellOperator                   shell_operator;
+  Assembly                        assembly;
   AffineConstraints<double>       none;
 };
 
@@ -189,12 +188,12 @@ test_step(const KinematicsModel model,
   zero = 0.;
   const StepStart start{u_start, {}};
   const Inertia   inertia{mass, zero, 0., &start};
-  shell.shell_operator.residual(mean,
-                                shell.shell_operator.actions(Instant()),
-                                force,
-                                &inertia);
-  const double U_start = shell.shell_operator.energies(u_start).total();
-  const double U_end   = shell.shell_operator.energies(u_end).total();
+  shell.assembly.residual(mean,
+                          shell.assembly.actions(Instant()),
+                          force,
+                          &inertia);
+  const double U_start = shell.assembly.energies(u_start).total();
+  const double U_end   = shell.assembly.energies(u_end).total();
   check_below(full_name + "work",
               std::abs(force * change - (U_end - U_start)) / (U_start + U_end),
               1e-12);
@@ -237,7 +236,7 @@ test_orientation(const KinematicsModel model, const Element &element)
     const Shell    shell(mesh, element, model);
     TrilinosVector u = interpolate(*shell.discretization, some_field);
     u *= 0.4;
-    return shell.shell_operator.energies(u).total();
+    return shell.assembly.energies(u).total();
   };
   const auto   mesh   = make_mesh(bend);
   const double energy = energy_on(mesh);

@@ -133,18 +133,18 @@ namespace MultigridTests
            const Discretization &discretization,
            const TrilinosVector *u = nullptr)
       : conditions(discretization, model.supports)
-      , shell_operator(discretization, model)
+      , assembly(discretization, model)
       , b(discretization.locally_owned_dofs(), MPI_COMM_WORLD)
     {
-      shell_operator.reinit_matrix(conditions.constraints(), matrix);
+      assembly.reinit_matrix(conditions.constraints(), matrix);
       if (u == nullptr)
-        shell_operator.assemble_system(conditions.constraints(), matrix, b);
+        assembly.assemble_system(conditions.constraints(), matrix, b);
       else
-        shell_operator.assemble(*u, conditions.constraints(), matrix, b);
+        assembly.assemble(*u, conditions.constraints(), matrix, b);
     }
 
     DisplacementConditions         conditions;
-    ShellOperator                  shell_operator;
+    Assembly                       assembly;
     TrilinosWrappers::SparseMatrix matrix;
     TrilinosVector                 b;
   };

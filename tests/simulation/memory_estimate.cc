@@ -28,16 +28,15 @@ namespace
           const unsigned int v = j * (n + 1) + i;
           mesh.cells.push_back({{v, v + 1, v + n + 1, v + n + 2}});
         }
-    const auto          discretization = make_discretization(mesh, degree);
-    const ShellOperator shell_operator(*discretization,
-                                       ShellParts(parameters.section,
-                                                  parameters.conditions,
-                                                  parameters.loads,
-                                                  MembraneStrain::tied,
-                                                  {}));
+    const auto     discretization = make_discretization(mesh, degree);
+    const Assembly assembly(*discretization,
+                            ShellParts(parameters.section,
+                                       parameters.conditions,
+                                       parameters.loads,
+                                       MembraneStrain::tied,
+                                       {}));
     TrilinosWrappers::SparseMatrix matrix;
-    shell_operator.reinit_matrix(discretization->hanging_node_constraints(),
-                                 matrix);
+    assembly.reinit_matrix(discretization->hanging_node_constraints(), matrix);
     const double entries = 1. * matrix.n_nonzero_elements() / matrix.m();
     const double share   = 1. - entries / entries_per_row(degree);
     check_above("p = " + std::to_string(degree) +

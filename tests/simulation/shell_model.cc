@@ -71,12 +71,12 @@ test_times()
                                       model.element,
                                       0,
                                       0);
-  const ShellOperator  shell_operator(discretization, model);
+  const Assembly       assembly(discretization, model);
   TrilinosVector at_start(discretization.locally_owned_dofs(), MPI_COMM_WORLD);
   TrilinosVector later(at_start), again(at_start), zero(at_start);
-  shell_operator.residual(zero, shell_operator.actions({0., 1.}), at_start);
-  shell_operator.residual(zero, shell_operator.actions(instant), later);
-  shell_operator.residual(zero, shell_operator.actions({0., 1.}), again);
+  assembly.residual(zero, assembly.actions({0., 1.}), at_start);
+  assembly.residual(zero, assembly.actions(instant), later);
+  assembly.residual(zero, assembly.actions({0., 1.}), again);
   later -= at_start;
   check_above("loads grow", later.linfty_norm(), 0.1);
   again -= at_start;

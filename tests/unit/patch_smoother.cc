@@ -32,18 +32,18 @@ namespace
             mesh.cells.push_back({{v, v + 1, v + 4, v + 5}});
           }
       shell = Tests::make_discretization(mesh, degree);
-      const ShellOperator shell_operator(*shell,
-                                         ShellParts(parameters.section,
-                                                    parameters.conditions,
-                                                    parameters.loads,
-                                                    KinematicsOptions(),
-                                                    {}));
+      const Assembly assembly(*shell,
+                              ShellParts(parameters.section,
+                                         parameters.conditions,
+                                         parameters.loads,
+                                         KinematicsOptions(),
+                                         {}));
       DoFTools::make_zero_boundary_constraints(shell->dof_handler(),
                                                constraints);
       constraints.close();
       Tests::TrilinosVector load(shell->locally_owned_dofs(), MPI_COMM_WORLD);
-      shell_operator.reinit_matrix(constraints, matrix);
-      shell_operator.assemble_system(constraints, matrix, load);
+      assembly.reinit_matrix(constraints, matrix);
+      assembly.assemble_system(constraints, matrix, load);
       const VertexPatches patches(*shell, constraints, extent);
       level.reinit(matrix, patches.foreign_dofs);
       is_definite = smoother.reinit(level, patches, 1);

@@ -15,7 +15,7 @@
 
 namespace Nacre
 {
-  class ShellOperator;
+  class Assembly;
 
   /** How much a cell of a static shell may bend between two points (rad). */
   constexpr double largest_bend = dealii::numbers::PI / 3.;
@@ -66,7 +66,7 @@ namespace Nacre
    * wrong. Collective.
    */
   std::string
-  find_torn_edge(const ShellOperator                 &shell_operator,
+  find_torn_edge(const Assembly                      &assembly,
                  const TrilinosWrappers::MPI::Vector &u,
                  const PrescribedRotations           &rotations,
                  const double                         allowed);

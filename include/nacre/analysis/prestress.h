@@ -5,7 +5,7 @@
 #define nacre_analysis_prestress_h
 
 #include <nacre/analysis/mode_parameters.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/solvers/linear_solver.h>
 
@@ -24,9 +24,9 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
     using Matrix = TrilinosWrappers::SparseMatrix;
 
-    /** All must live as long; @p shell_operator that of @p model. */
+    /** All must live as long; @p assembly that of @p model. */
     Prestress(const Discretization &discretization,
-              const ShellOperator  &shell_operator,
+              const Assembly       &assembly,
               const ShellModel     &model,
               const ModeOptions    &options);
 
@@ -94,7 +94,7 @@ namespace Nacre
     clear_constrained(Matrix &matrix) const;
 
     const Discretization     &discretization_;
-    const ShellOperator      &operator_;
+    const Assembly           &operator_;
     const ShellModel         &model_;
     const ModeOptions        &options_;
     AffineConstraints<double> constraints_;

@@ -6,7 +6,7 @@
 
 #include <nacre/base/expression.h>
 #include <nacre/discretization/displacement_conditions.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/solvers/linear_solver.h>
 #include <nacre/solvers/newton_solver.h>
@@ -28,11 +28,11 @@ namespace Nacre
 
     /**
      * The system at t = 0; collective. Everything must live as long.
-     * @param shell_operator that of @p model on @p discretization
+     * @param assembly that of @p model on @p discretization
      * @param solver of the linearised systems
      */
     ShellSystem(const Discretization &discretization,
-                const ShellOperator  &shell_operator,
+                const Assembly       &assembly,
                 const ShellModel     &model,
                 LinearSolver         &solver);
 
@@ -203,10 +203,10 @@ namespace Nacre
       return discretization_;
     }
 
-    const ShellOperator &
-    shell_operator() const
+    const Assembly &
+    assembly() const
     {
-      return shell_operator_;
+      return assembly_;
     }
 
     /** CPU seconds of residuals and tangents so far on this rank. */
@@ -273,7 +273,7 @@ namespace Nacre
     increment_constraints(const Vector &ghosted_end, const double share) const;
 
     const Discretization &discretization_;
-    const ShellOperator  &shell_operator_;
+    const Assembly       &assembly_;
     const ShellModel     &model_;
     ShellActions          actions_;
     double                factor_ = 0.;

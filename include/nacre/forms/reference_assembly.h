@@ -17,7 +17,7 @@ namespace Nacre
    * The linear form as a textbook writes it, with nothing but deal.II's own
    * tools: FEValues on the cells, FEInterfaceValues on the edges, a loop by
    * MeshWorker::mesh_loop(), AffineConstraints for the constraints. Slower than
-   * ShellOperator several times over, and its measure: both give the same
+   * Assembly several times over, and its measure: both give the same
    * system.
    *
    * For test functions v and trial functions u (formulation.md):

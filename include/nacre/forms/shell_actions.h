@@ -19,7 +19,7 @@ namespace Nacre
 
   /**
    * What acts on a shell beside prescribed displacements, which are
-   * constraints: ShellOperator::actions().
+   * constraints: Assembly::actions().
    */
   struct ShellActions
   {

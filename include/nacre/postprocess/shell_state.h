@@ -15,7 +15,7 @@ namespace Nacre
 {
   class DisplacementConditions;
   class MassTerms;
-  class ShellOperator;
+  class Assembly;
   struct ModeValues;
   struct ShellActions;
 
@@ -31,8 +31,8 @@ namespace Nacre
   /** The same with its forces and its motion, as quantities see it. */
   struct SolvedShell : ShellState
   {
-    const ShellOperator &shell_operator;
-    const ShellActions  &actions;
+    const Assembly     &assembly;
+    const ShellActions &actions;
     /** Which nodes are held: the same at all times. */
     const DisplacementConditions &conditions;
     /** K u - f (force) without constraints. */

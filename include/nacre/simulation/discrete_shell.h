@@ -6,7 +6,7 @@
 
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/displacement_conditions.h>
-#include <nacre/forms/shell_operator.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <memory>
@@ -58,10 +58,10 @@ namespace Nacre
       return conditions_;
     }
 
-    const ShellOperator &
-    shell_operator() const
+    const Assembly &
+    assembly() const
     {
-      return operator_;
+      return assembly_;
     }
 
     ChosenSolver &
@@ -111,7 +111,7 @@ namespace Nacre
     const ShellProblem          &problem_;
     Discretization               discretization_;
     const DisplacementConditions conditions_;
-    const ShellOperator          operator_;
+    const Assembly               assembly_;
     /** Refers to the members before it. */
     std::unique_ptr<ChosenSolver> solver_;
   };

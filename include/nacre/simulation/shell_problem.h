@@ -30,7 +30,7 @@ namespace Nacre
   /** Who assembles the system of a linear analysis. */
   enum class AssemblyMethod
   {
-    /** ShellOperator */
+    /** Assembly */
     fast,
     /** ReferenceAssembly */
     reference

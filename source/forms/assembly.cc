@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/forms/matrix_scatter.h>
-#include <nacre/forms/shell_operator.h>
 #include <nacre/forms/shell_pattern.h>
 
 #include <deal.II/meshworker/mesh_loop.h>
@@ -12,7 +12,7 @@
 
 namespace Nacre
 {
-  struct ShellOperator::FaceCopy
+  struct Assembly::FaceCopy
   {
     LocalTerms                           terms;
     std::vector<types::global_dof_index> dofs;
@@ -20,7 +20,7 @@ namespace Nacre
     unsigned int n_done = 0;
   };
 
-  struct ShellOperator::CopyData
+  struct Assembly::CopyData
   {
     bool                                 wants_tangent = true;
     LocalTerms                           terms;
@@ -121,12 +121,10 @@ namespace Nacre
   } // namespace
 
   /** What a loop calls for cells, interior edges and boundary edges. */
-  class ShellOperator::Worker
+  class Assembly::Worker
   {
   public:
-    Worker(const ShellOperator &shell,
-           const TermPointers  &terms,
-           const State         &state)
+    Worker(const Assembly &shell, const TermPointers &terms, const State &state)
       : shell_(shell)
       , terms_(terms)
       , state_(state)
@@ -226,7 +224,7 @@ namespace Nacre
       local_.rotations_start = &state_.start->rotations;
     }
 
-    const ShellOperator        &shell_;
+    const Assembly             &shell_;
     const TermPointers         &terms_;
     const State                &state_;
     std::unique_ptr<Kinematics> kinematics_;
@@ -234,9 +232,9 @@ namespace Nacre
     LocalState                  local_;
   };
 
-  ShellOperator::ShellOperator(const Discretization &discretization,
-                               const ShellParts     &parts,
-                               const TermSelection   selection)
+  Assembly::Assembly(const Discretization &discretization,
+                     const ShellParts     &parts,
+                     const TermSelection   selection)
     : discretization_(discretization)
     , penalty_(discretization,
                parts.section,
@@ -254,8 +252,8 @@ namespace Nacre
     , symmetrizes_(parts.kinematics.tangent != TangentType::consistent)
   {}
 
-  ShellOperator::TermPointers
-  ShellOperator::terms_at(const State &state) const
+  Assembly::TermPointers
+  Assembly::terms_at(const State &state) const
   {
     TermPointers terms;
     for (const auto &term : terms_)
@@ -266,28 +264,28 @@ namespace Nacre
   }
 
   void
-  ShellOperator::reinit_matrix(const AffineConstraints<double> &constraints,
-                               Matrix                          &matrix) const
+  Assembly::reinit_matrix(const AffineConstraints<double> &constraints,
+                          Matrix                          &matrix) const
   {
     make_shell_pattern(discretization_, constraints, matrix);
   }
 
   void
-  ShellOperator::assemble_system(const AffineConstraints<double> &constraints,
-                                 Matrix                          &matrix,
-                                 Vector &right_hand_side) const
+  Assembly::assemble_system(const AffineConstraints<double> &constraints,
+                            Matrix                          &matrix,
+                            Vector &right_hand_side) const
   {
     const ShellActions at_start = actions(Instant());
     assemble_at({nullptr, at_start}, constraints, matrix, right_hand_side);
   }
 
   Energies
-  ShellOperator::assemble(const Vector                    &u,
-                          const ShellActions              &actions,
-                          const AffineConstraints<double> &constraints,
-                          Matrix                          &matrix,
-                          Vector                          &right_hand_side,
-                          const Inertia                   *inertia) const
+  Assembly::assemble(const Vector                    &u,
+                     const ShellActions              &actions,
+                     const AffineConstraints<double> &constraints,
+                     Matrix                          &matrix,
+                     Vector                          &right_hand_side,
+                     const Inertia                   *inertia) const
   {
     return sum_over_ranks(assemble_at({&u, actions, inertia, start_of(inertia)},
                                       constraints,
@@ -297,10 +295,10 @@ namespace Nacre
   }
 
   Energies
-  ShellOperator::assemble_at(const State                     &state,
-                             const AffineConstraints<double> &constraints,
-                             Matrix                          &matrix,
-                             Vector &right_hand_side) const
+  Assembly::assemble_at(const State                     &state,
+                        const AffineConstraints<double> &constraints,
+                        Matrix                          &matrix,
+                        Vector                          &right_hand_side) const
   {
     matrix          = 0.;
     right_hand_side = 0.;
@@ -336,10 +334,10 @@ namespace Nacre
   }
 
   Energies
-  ShellOperator::residual(const Vector       &u,
-                          const ShellActions &actions,
-                          Vector             &result,
-                          const Inertia      *inertia) const
+  Assembly::residual(const Vector       &u,
+                     const ShellActions &actions,
+                     Vector             &result,
+                     const Inertia      *inertia) const
   {
     const State    state{&u, actions, inertia, start_of(inertia)};
     const Energies mine = sum_residuals(terms_at(state), state, result);
@@ -347,9 +345,9 @@ namespace Nacre
   }
 
   Energies
-  ShellOperator::sum_residuals(const TermPointers &terms,
-                               const State        &state,
-                               Vector             &result) const
+  Assembly::sum_residuals(const TermPointers &terms,
+                          const State        &state,
+                          Vector             &result) const
   {
     result = 0.;
     Energies sum;
@@ -374,10 +372,10 @@ namespace Nacre
   }
 
   void
-  ShellOperator::loads(const Vector    &u,
-                       Vector          &result,
-                       const Instant   &instant,
-                       const StepStart *start) const
+  Assembly::loads(const Vector    &u,
+                  Vector          &result,
+                  const Instant   &instant,
+                  const StepStart *start) const
   {
     const ShellActions actions{instant, {}};
     TermPointers       loads;
@@ -389,7 +387,7 @@ namespace Nacre
   }
 
   Energies
-  ShellOperator::energies(const Vector &u, const ShellActions &actions) const
+  Assembly::energies(const Vector &u, const ShellActions &actions) const
   {
     Vector result(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
@@ -397,10 +395,10 @@ namespace Nacre
   }
 
   void
-  ShellOperator::loop(const TermPointers &terms,
-                      const State        &state,
-                      const bool          wants_tangent,
-                      const Copier       &copier) const
+  Assembly::loop(const TermPointers &terms,
+                 const State        &state,
+                 const bool          wants_tangent,
+                 const Copier       &copier) const
   {
     const auto cell_worker =
       [](const Cell &cell, Worker &worker, CopyData &copy) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_forms_shell_operator_h
-#define nacre_forms_shell_operator_h
+#ifndef nacre_forms_assembly_h
+#define nacre_forms_assembly_h
 
 #include <nacre/forms/mass_terms.h>
 #include <nacre/forms/rotation_conditions.h>
@@ -24,7 +24,7 @@ namespace Nacre
    * matter to take ShellActions, or take both at t = 0 with the factor 1, as
    * linear analyses do.
    */
-  class ShellOperator
+  class Assembly
   {
   public:
     using Vector = TrilinosWrappers::MPI::Vector;
@@ -34,9 +34,9 @@ namespace Nacre
      * The discretisation and what @p parts refer to must live as long. Throws
      * as make_terms() does; collective.
      */
-    ShellOperator(const Discretization &discretization,
-                  const ShellParts     &parts,
-                  const TermSelection   selection = TermSelection::all);
+    Assembly(const Discretization &discretization,
+             const ShellParts     &parts,
+             const TermSelection   selection = TermSelection::all);
 
     /** The loads and the prescribed rotations at @p instant; collective. */
     ShellActions
