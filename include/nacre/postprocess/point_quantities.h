@@ -21,8 +21,8 @@ namespace Nacre
    * |---|---|---|
    * | stress 11, 22, 12 FACE at (point) | e_i . S e_j at a face of the section,
    * bottom, middle or top | force/length^2 |
-   * | principal stress 1, 2 FACE at (point) | its eigenvalues, 1 the larger one |
-   * force/length^2 |
+   * | principal stress 1, 2 FACE at (point) | its eigenvalues, 1 the larger
+   * one | force/length^2 |
    * | von Mises stress FACE at (point) | | force/length^2 |
    * | membrane force 11, 22, 12 at (point) | e_i . N e_j | force/length |
    * | principal membrane force 1, 2 at (point) | eigenvalues |
