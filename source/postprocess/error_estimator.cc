@@ -86,8 +86,8 @@ namespace Nacre
       , discretization_(estimator.discretization_)
       , fields_(fields)
       , stresses_(discretization_,
-                  estimator.model_.section,
-                  estimator.model_.kinematics,
+                  estimator.parts_.section,
+                  estimator.parts_.kinematics,
                   displacements(fields))
       , weights_(discretization_.triangulation().n_active_cells())
       , cell_values_(discretization_,
@@ -99,7 +99,7 @@ namespace Nacre
       , vectors_(fields.size())
       , moments_(fields.size())
       , rotations_(fields.size())
-      , is_linear_(estimator.model_.kinematics.model == KinematicsModel::linear)
+      , is_linear_(estimator.parts_.kinematics.model == KinematicsModel::linear)
       , u_(discretization_.node_dofs().size())
     {
       Assert(is_linear_ || fields.size() == 1, ExcInternalError());
@@ -137,7 +137,7 @@ namespace Nacre
             const auto frame = deformed_frame_at(cell, values, 0);
             weights_[cell->active_cell_index()] =
               error_weight(frame,
-                           estimator_.model_.section.stiffness(values.frame(0),
+                           estimator_.parts_.section.stiffness(values.frame(0),
                                                                values.point(0)),
                            resolved_wave_number(discretization_.degree()));
           }
@@ -207,8 +207,8 @@ namespace Nacre
     add_cell(const Iterator &cell)
     {
       cell_values_.reinit_frames(cell);
-      const auto &section = estimator_.model_.section;
-      const auto &loads   = estimator_.model_.loads;
+      const auto &section = estimator_.parts_.section;
+      const auto &loads   = estimator_.parts_.loads;
       const auto &W       = weight_of(cell);
       for (unsigned int q = 0; q < cell_values_.n_points(); ++q)
         {
@@ -384,7 +384,7 @@ namespace Nacre
       std::fill(rotations_.begin(), rotations_.end(), 0.);
       for (unsigned int side = 0; side < edge_.n_sides(); ++side)
         {
-          side_.reinit(edge_, side, q, estimator_.model_.section);
+          side_.reinit(edge_, side, q, estimator_.parts_.section);
           stiffness_ += side_.stiffness / edge_.n_sides();
           normal_ += edge_.sigma(side, q) * edge_.frame(side, q).t0;
           const double sign = (edge_.n_sides() == 2 && side == 0) ? -1. : 1.;
@@ -420,7 +420,7 @@ namespace Nacre
     fill_finite_jumps(const unsigned int q)
     {
       const unsigned int n_sides = edge_.n_sides();
-      const bool         coupled = estimator_.model_.section.is_coupled();
+      const bool         coupled = estimator_.parts_.section.is_coupled();
       if (q == 0)
         for (unsigned int side = 0; side < n_sides; ++side)
           {
@@ -435,7 +435,7 @@ namespace Nacre
           }
       point_.reinit(edge_,
                     q,
-                    estimator_.model_.section,
+                    estimator_.parts_.section,
                     1.,
                     n_sides == 1 ? prescribed_[q] : PrescribedRotation(),
                     nodes_,
@@ -457,9 +457,9 @@ namespace Nacre
     void
     apply_boundary_data(const types::boundary_id id, const unsigned int q)
     {
-      const auto &loads   = estimator_.model_.loads;
-      const auto  edge    = estimator_.model_.supports.edges().find(id);
-      const bool  rotates = (edge != estimator_.model_.supports.edges().end() &&
+      const auto &loads   = estimator_.parts_.loads;
+      const auto  edge    = estimator_.parts_.supports.edges().find(id);
+      const bool  rotates = (edge != estimator_.parts_.supports.edges().end() &&
                             edge->second.rotation != nullptr);
       const auto  point   = edge_.point(q);
       for (unsigned int f = 0; f < fields_.size(); ++f)
@@ -562,10 +562,10 @@ namespace Nacre
 
 
   ErrorEstimator::ErrorEstimator(const Discretization &discretization,
-                                 const ShellModel     &model,
+                                 const ShellParts     &parts,
                                  const EdgePenalty    &penalty)
     : discretization_(discretization)
-    , model_(model)
+    , parts_(parts)
     , penalty_(penalty)
     , conditions_(discretization, model.supports)
   {}

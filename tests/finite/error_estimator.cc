@@ -25,11 +25,11 @@ namespace
                               discretization.element().full_quadrature(),
                               eta);
     const ErrorEstimator            estimator(discretization,
-                                   parameters.section,
-                                   parameters.conditions,
-                                   parameters.loads,
-                                   penalty,
-                                   kinematics);
+                                   ShellParts(parameters.section,
+                                              parameters.conditions,
+                                              parameters.loads,
+                                              kinematics),
+                                   penalty);
     const auto                      u = interpolate(discretization, field);
     const auto                      indicators = estimator.estimate({&u, true});
     std::array<double, n_residuals> sums;

@@ -7,6 +7,7 @@
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/edge_penalty.h>
 #include <nacre/forms/shell_actions.h>
+#include <nacre/forms/shell_terms.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -15,7 +16,6 @@
 
 namespace Nacre
 {
-  struct ShellModel;
 
   /** The residuals that an estimate is made of. */
   enum class Residual
@@ -117,7 +117,7 @@ namespace Nacre
 
     /** Everything must stay alive; collective. */
     ErrorEstimator(const Discretization &discretization,
-                   const ShellModel     &model,
+                   const ShellParts     &parts,
                    const EdgePenalty    &penalty);
 
     /** eta_K^2 of one field, of any kinematics; collective. */
@@ -135,7 +135,7 @@ namespace Nacre
     class Assembly;
 
     const Discretization        &discretization_;
-    const ShellModel            &model_;
+    const ShellParts             parts_;
     const EdgePenalty           &penalty_;
     const DisplacementConditions conditions_;
   };
