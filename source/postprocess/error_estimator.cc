@@ -567,7 +567,7 @@ namespace Nacre
     : discretization_(discretization)
     , parts_(parts)
     , penalty_(penalty)
-    , conditions_(discretization, model.supports)
+    , conditions_(discretization, parts_.supports)
   {}
 
   ErrorIndicators
