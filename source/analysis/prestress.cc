@@ -55,7 +55,7 @@ namespace Nacre
                        const ShellModel     &model,
                        const ModeOptions    &options)
     : discretization_(discretization)
-    , operator_(assembly)
+    , assembly_(assembly)
     , model_(model)
     , options_(options)
   {
@@ -79,12 +79,12 @@ namespace Nacre
   void
   Prestress::assemble_stiffness(Matrix &K) const
   {
-    operator_.reinit_matrix(constraints_, K);
+    assembly_.reinit_matrix(constraints_, K);
     Vector       unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
     const Vector zero = ghosted(unused);
-    operator_.assemble(zero,
-                       operator_.actions({0., 0.}),
+    assembly_.assemble(zero,
+                       assembly_.actions({0., 0.}),
                        constraints_,
                        K,
                        unused);
@@ -107,7 +107,7 @@ namespace Nacre
     Vector       force(discretization_.locally_owned_dofs(),
                  discretization_.communicator());
     const Vector zero = ghosted(force);
-    operator_.residual(zero, operator_.actions(instant), force);
+    assembly_.residual(zero, assembly_.actions(instant), force);
     return Utilities::MPI::max(largest, discretization_.communicator()) > 0. ||
            force.linfty_norm() > 0.;
   }
@@ -139,9 +139,9 @@ namespace Nacre
     Matrix       matrix;
     Vector       force(u);
     const Vector zero = ghosted(u);
-    operator_.reinit_matrix(conditions.constraints(), matrix);
-    operator_.assemble(zero,
-                       operator_.actions(instant),
+    assembly_.reinit_matrix(conditions.constraints(), matrix);
+    assembly_.assemble(zero,
+                       assembly_.actions(instant),
                        conditions.constraints(),
                        matrix,
                        force);
@@ -219,14 +219,14 @@ namespace Nacre
     // The tangent at rest is K less the load stiffness, which is linear in the
     // load.
     Matrix tangent;
-    operator_.reinit_matrix(constraints_, tangent);
+    assembly_.reinit_matrix(constraints_, tangent);
     Vector       unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
     const Vector zero = ghosted(unused);
     for (const double sign : {1., -1.})
       {
-        operator_.assemble(zero,
-                           operator_.actions(
+        assembly_.assemble(zero,
+                           assembly_.actions(
                              {instant.time, sign > 0. ? instant.factor : 0.}),
                            constraints_,
                            tangent,

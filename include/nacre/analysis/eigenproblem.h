@@ -72,8 +72,7 @@ namespace Nacre
      * The @p n_wanted lowest eigenvalues above @p shift, or fewer if there are
      * no more, and all up to the next gap that is wider than the relative
      * @p tolerance; maybe some more. Throws if K - shift M is singular, or if
-     * some
-     * can't be found. If only K is definite the shift isn't negative.
+     * some can't be found. If only K is definite the shift isn't negative.
      * @param upper if given, those below only
      */
     Spectrum

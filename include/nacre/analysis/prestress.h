@@ -94,7 +94,7 @@ namespace Nacre
     clear_constrained(Matrix &matrix) const;
 
     const Discretization     &discretization_;
-    const Assembly           &operator_;
+    const Assembly           &assembly_;
     const ShellModel         &model_;
     const ModeOptions        &options_;
     AffineConstraints<double> constraints_;
