@@ -93,8 +93,8 @@ case("arc_length_damping", ["Analysis/Damping of iterations", "choose 1"],
 case("arc_length_frozen", ["Discretization/Tangent", "'frozen'"],
      {**ARC, "Discretization/Kinematics": "corotational",
       "Discretization/Tangent": "frozen"})
-case("arc_length_unloaded", ["Analysis/Type = arc length", "nothing moves"],
-     {**ARC, "Loads/Force per area": "0, 0, 0"})
+case("arc_length_adaptive", ["Adaptive refinement/Cycles", "arc length"],
+     {**ARC, "Adaptive refinement/Cycles": "2"})
 case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],
      {"Analysis/Type": "static", "Analysis/Maximum time step": "0.01"})
 case("analysis_load_factor", ["Analysis/Load factor", "s"],
