@@ -142,8 +142,8 @@ namespace Nacre
                            "the estimate knows no inertia; set it to 0, or "
                            "'Analysis/Type' to static or linear."));
     AssertThrow(!seeks_modes(path.type),
-                ExcMessage(section + "Cycles: 'Analysis/Type = " +
-                           name_of(path.type) +
+                ExcMessage(section +
+                           "Cycles: 'Analysis/Type = " + name_of(path.type) +
                            "' has no estimate; it is for a linear analysis "
                            "and static paths: set it to 0."));
     AssertThrow(path.type != AnalysisType::arc_length,
