@@ -167,7 +167,8 @@ namespace Nacre
               {
                 const PathPoint point = find_point(before, state);
                 callbacks.observe_point(point);
-                if (point.kind != "limit" && ++n_bifurcations == switches_at)
+                if (point.kind.find("bifurcation") != std::string::npos &&
+                    ++n_bifurcations == switches_at)
                   {
                     callbacks.tell(
                       "the path goes on along the branch that leaves "
@@ -220,6 +221,7 @@ namespace Nacre
     // that to the End time.
     double    low = 0., high = before.next_step, low_time = before.time;
     const int n_halvings = 40;
+    bool      is_found   = false;
     for (int k = 0; k < n_halvings; ++k)
       {
         double  end = before.time;
@@ -247,9 +249,10 @@ namespace Nacre
             point.state.time        = end;
             point.state.load_factor = system_.load_factor();
           }
-        if (std::abs(point.state.time - low_time) <=
-              1e-6 * std::abs(low_time) &&
-            high - low <= 1e-4 * before.next_step)
+        is_found =
+          std::abs(point.state.time - low_time) <= 1e-6 * std::abs(low_time) &&
+          high - low <= 1e-4 * before.next_step;
+        if (is_found)
           break;
       }
     const bool         is_limit  = rises(before) != rises(point.state);
@@ -258,6 +261,8 @@ namespace Nacre
     point.kind = !is_limit      ? "bifurcation" :
                  n_changes == 1 ? "limit" :
                                   "limit and bifurcation";
+    if (!is_found)
+      point.kind += " (not pinpointed)";
     return point;
   }
 

@@ -33,15 +33,17 @@ namespace Nacre
     Quadrature<dim>
     make_sample_points(const Element &element)
     {
-      const auto         cell   = element.reference_cell();
-      const unsigned int n      = element.degree - 1;
-      auto               points = element.type == ElementType::triangle ?
-                                    QGaussSimplex<dim>(n).get_points() :
-                                    QGauss<dim>(n).get_points();
+      const auto              cell   = element.reference_cell();
+      const unsigned int      n      = element.degree - 1;
+      auto                    points = element.type == ElementType::triangle ?
+                                         QGaussSimplex<dim>(n).get_points() :
+                                         QGauss<dim>(n).get_points();
+      std::vector<Point<dim>> middle(1);
       for (const unsigned int face : cell.face_indices())
-        points.push_back(
-          QProjector<dim>::project_to_face(cell, QMidpoint<1>(), face)
-            .point(0));
+        {
+          QProjector<dim>::project_to_face(cell, QMidpoint<1>(), face, middle);
+          points.push_back(middle[0]);
+        }
       points.push_back(cell.barycenter<dim>());
       return Quadrature<dim>(points);
     }

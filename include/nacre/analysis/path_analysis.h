@@ -40,7 +40,10 @@ namespace Nacre
   /** A point of a path with arc length at which its stability changes. */
   struct PathPoint
   {
-    /** "limit", "bifurcation", or "limit and bifurcation". */
+    /**
+     * "limit", "bifurcation", or "limit and bifurcation"; "(not pinpointed)"
+     * follows where the state is that after the whole step.
+     */
     std::string kind;
     /** Negative eigenvalues of the tangent before and after it. */
     unsigned int n_before = 0;
