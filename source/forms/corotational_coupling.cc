@@ -91,7 +91,7 @@ namespace Nacre
       {
         const EdgeSideTying values(edge, s);
         edge_membrane_[s].reinit_strains(values, edge_u_[s]);
-        edge_membrane_[s].clear_forces(values.tying());
+        edge_membrane_[s].clear_forces();
         if (in_step_)
           for (unsigned int end = 0; end < 2; ++end)
             ends_edge_membrane_[end][s].reinit_strains(values,

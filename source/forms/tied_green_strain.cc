@@ -26,7 +26,7 @@ namespace Nacre
     force_rows_.reinit(2 * n_points, n_nodes, true);
     for (unsigned int k = 0; k < n_points; ++k)
       {
-        const auto &n = strain.tying_force(k);
+        const auto &n = strain.resultant(k);
         for (unsigned int a = 0; a < n_nodes; ++a)
           {
             const auto &dN               = tying_shapes.gradient(k, a);

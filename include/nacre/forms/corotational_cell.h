@@ -4,7 +4,7 @@
 #ifndef nacre_forms_corotational_cell_h
 #define nacre_forms_corotational_cell_h
 
-#include <nacre/forms/node_vectors.h>
+#include <nacre/forms/tied_samples.h>
 #include <nacre/mechanics/corotational_strain.h>
 #include <nacre/mechanics/step_differences.h>
 
@@ -45,7 +45,7 @@ namespace Nacre
    * Templated on the scalar, so that tests can take complex steps.
    */
   template <typename Number>
-  class CorotationalMembrane
+  class CorotationalMembrane : public TiedSamples<Number>
   {
   public:
     using Vector = Tensor<1, spacedim, Number>;
@@ -80,60 +80,7 @@ namespace Nacre
           strain[k] =
             CorotationalStrain::membrane(frame, deformed_[k], polar_[k]);
         }
-
-      const auto &samples = tying.samples();
-      strains_.resize(samples.size());
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        {
-          strains_[s] = 0.;
-          for (unsigned int v = 0; v < 3; ++v)
-            strains_[s] +=
-              samples[s].direction[v] * strain[samples[s].point][v];
-        }
-    }
-
-    /** Begin with no forces, for add_point_force(). */
-    void
-    clear_forces(const MembraneTying &tying)
-    {
-      forces_.assign(tying.samples().size(), 0.);
-    }
-
-    /** The strain at the point @p q, interpolated from the samples. */
-    Voigt<Number>
-    tied_strain(const MembraneTying &tying, const unsigned int q) const
-    {
-      Voigt<Number> strain;
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[s, weight] : tying.weights(q, v))
-          strain[v] += weight * strains_[s];
-      return strain;
-    }
-
-    /**
-     * Add the membrane force @p n at the point @p q, area and weight included,
-     * to those of the samples; set_resultants() follows the last one.
-     */
-    void
-    add_point_force(const MembraneTying &tying,
-                    const unsigned int   q,
-                    const Voigt<Number> &n)
-    {
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[s, weight] : tying.weights(q, v))
-          forces_[s] += weight * n[v];
-    }
-
-    /** From the forces of the samples to those of the tying points. */
-    void
-    set_resultants(const MembraneTying &tying)
-    {
-      const auto &samples = tying.samples();
-      resultants_.assign(tying.points().size(), Voigt<Number>());
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          resultants_[samples[s].point][v] +=
-            samples[s].direction[v] * forces_[s];
+      this->set_strains(tying, strain);
     }
 
     /**
@@ -144,7 +91,7 @@ namespace Nacre
     std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2>
     turn_derivative(const unsigned int k) const
     {
-      const auto  &n       = resultants_[k];
+      const auto  &n       = this->resultants_[k];
       const auto  &t       = deformed_[k].t0;
       const Number N[2][2] = {{n[0], n[2]}, {n[2], n[1]}};
       std::array<std::array<Tensor<2, spacedim, Number>, 2>, 2> X;
@@ -170,16 +117,8 @@ namespace Nacre
                       const CorotationalMembrane<Number> &start,
                       const CorotationalMembrane<Number> &end)
     {
-      for (unsigned int s = 0; s < strains_.size(); ++s)
-        strains_[s] = 0.5 * (start.strains_[s] + end.strains_[s]);
+      this->set_mean_strains(start, end);
       set_forces(values.tying(), stiffness);
-    }
-
-    /** Work conjugate of the strain of the sample @p s. */
-    const Number &
-    sample_force(const unsigned int s) const
-    {
-      return forces_[s];
     }
 
     /** 1/2 e . M . e (force times length). */
@@ -187,8 +126,8 @@ namespace Nacre
     energy() const
     {
       Number sum = 0.;
-      for (unsigned int s = 0; s < strains_.size(); ++s)
-        sum += 0.5 * strains_[s] * forces_[s];
+      for (unsigned int s = 0; s < this->strains_.size(); ++s)
+        sum += 0.5 * this->strain(s) * this->sample_force(s);
       return sum;
     }
 
@@ -198,19 +137,9 @@ namespace Nacre
     void
     add_force(const ShellCellValues &values, NodeVectors<Number> &force) const
     {
+      // The virtual strain R phi0,(a . v,b) has R frozen.
       for (unsigned int k = 0; k < polar_.size(); ++k)
-        {
-          // The virtual strain R phi0,(a . v,b) has R frozen.
-          const auto  &n   = resultants_[k];
-          const auto  &q   = polar_[k].q_cov;
-          const Vector g_1 = n[0] * q[0] + n[2] * q[1];
-          const Vector g_2 = n[1] * q[1] + n[2] * q[0];
-          for (unsigned int a = 0; a < force.size(); ++a)
-            {
-              const auto &dN = values.tying_shapes().gradient(k, a);
-              force[a] += dN[0] * g_1 + dN[1] * g_2;
-            }
-        }
+        this->add_force_at(k, polar_[k].q_cov, values.tying_shapes(), force);
     }
 
     /** a_cov = phi,alpha and t0 = t at the tying point @p k. */
@@ -256,20 +185,6 @@ namespace Nacre
       return vectors;
     }
 
-    /** Strain of the sample @p s (length^2). */
-    const Number &
-    strain(const unsigned int s) const
-    {
-      return strains_[s];
-    }
-
-    /** Work conjugates of the strains of the tying point @p k, Voigt. */
-    const Voigt<Number> &
-    resultant(const unsigned int k) const
-    {
-      return resultants_[k];
-    }
-
   private:
     static std::array<Vector, 2>
     combine(const std::array<double, 3> &direction,
@@ -283,20 +198,16 @@ namespace Nacre
     set_forces(const MembraneTying &tying, const FullMatrix<double> &stiffness)
     {
       const auto &samples = tying.samples();
-      forces_.assign(samples.size(), 0.);
+      this->clear_forces();
       for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int r = 0; r < samples.size(); ++r)
-          forces_[s] += stiffness(s, r) * strains_[r];
-      set_resultants(tying);
+          this->forces_[s] += stiffness(s, r) * this->strains_[r];
+      this->set_resultants(tying);
     }
 
     /** By tying point. */
     std::vector<SurfaceFrame<Number>>  deformed_;
     std::vector<PolarRotation<Number>> polar_;
-    std::vector<Voigt<Number>>         resultants_;
-    /** By sample. */
-    std::vector<Number> strains_;
-    std::vector<Number> forces_;
   };
 
   /** The tying points of a side of an edge, for CorotationalMembrane. */

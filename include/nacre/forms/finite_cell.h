@@ -45,7 +45,7 @@ namespace Nacre
       deformed_.resize(bends ? values.n_points() : 0);
       for (unsigned int q = 0; q < values.n_points(); ++q)
         {
-          membrane_strains_[q] = membrane_.strain(values.tying(), q);
+          membrane_strains_[q] = membrane_.tied_strain(values.tying(), q);
           if (!bends)
             continue;
           deformed_[q] = deformed_frame(values.frame(q), values.shapes(), q, u);

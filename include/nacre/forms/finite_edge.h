@@ -122,7 +122,7 @@ namespace Nacre
           stiffness += reinit_side(edge, s, q, section, u[s]);
           if (membrane != nullptr)
             side.moment +=
-              side.coupling * (*membrane)[s].strain(edge.tying(s), q);
+              side.coupling * (*membrane)[s].tied_strain(edge.tying(s), q);
         }
       fluxes_    = edge_fluxes(edge, q, stiffness, penalty);
       stiffness_ = stiffness;

@@ -4,7 +4,7 @@
 #ifndef nacre_forms_tied_green_strain_h
 #define nacre_forms_tied_green_strain_h
 
-#include <nacre/forms/node_vectors.h>
+#include <nacre/forms/tied_samples.h>
 #include <nacre/mechanics/green_strain.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -25,7 +25,7 @@ namespace Nacre
    * complex steps.
    */
   template <typename Number>
-  class TiedGreenStrain
+  class TiedGreenStrain : public TiedSamples<Number>
   {
   public:
     using Vector = Tensor<1, spacedim, Number>;
@@ -46,12 +46,8 @@ namespace Nacre
           for (unsigned int alpha = 0; alpha < 2; ++alpha)
             tangents_[k][alpha] = frame.a_cov[alpha] + du[alpha];
         }
-      const auto &samples = tying.samples();
-      samples_.assign(samples.size(), 0.);
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          samples_[s] += samples[s].direction[v] * strains[samples[s].point][v];
-      sample_forces_.assign(samples.size(), 0.);
+      this->set_strains(tying, strains);
+      this->clear_forces();
     }
 
     /**
@@ -63,51 +59,12 @@ namespace Nacre
                const TiedGreenStrain<Number> &end)
     {
       tangents_ = start.tangents_;
-      samples_  = start.samples_;
       for (unsigned int k = 0; k < tangents_.size(); ++k)
         for (unsigned int alpha = 0; alpha < 2; ++alpha)
           tangents_[k][alpha] =
             0.5 * (start.tangents_[k][alpha] + end.tangents_[k][alpha]);
-      for (unsigned int s = 0; s < samples_.size(); ++s)
-        samples_[s] = 0.5 * (start.samples_[s] + end.samples_[s]);
-      sample_forces_.assign(samples_.size(), 0.);
-    }
-
-    /** E (length^2) at the point @p q. */
-    Voigt<Number>
-    strain(const MembraneTying &tying, const unsigned int q) const
-    {
-      Voigt<Number> strain;
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[s, weight] : tying.weights(q, v))
-          strain[v] += weight * samples_[s];
-      return strain;
-    }
-
-    /**
-     * Add the work conjugate @p n of E at the point @p q, weight included;
-     * set_resultants() follows the last one.
-     */
-    void
-    add_point_force(const MembraneTying &tying,
-                    const unsigned int   q,
-                    const Voigt<Number> &n)
-    {
-      for (unsigned int v = 0; v < 3; ++v)
-        for (const auto &[s, weight] : tying.weights(q, v))
-          sample_forces_[s] += weight * n[v];
-    }
-
-    /** From the forces of the samples to those of the tying points. */
-    void
-    set_resultants(const MembraneTying &tying)
-    {
-      const auto &samples = tying.samples();
-      forces_.assign(tying.points().size(), Voigt<Number>());
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int v = 0; v < 3; ++v)
-          forces_[samples[s].point][v] +=
-            samples[s].direction[v] * sample_forces_[s];
+      this->set_mean_strains(start, end);
+      this->clear_forces();
     }
 
     /** Add the force of each node. */
@@ -115,18 +72,7 @@ namespace Nacre
     add_force(const ShapeTable &tying_shapes, NodeVectors<Number> &force) const
     {
       for (unsigned int k = 0; k < tangents_.size(); ++k)
-        {
-          // n^ab phi,a . v,b
-          const auto  &n   = forces_[k];
-          const auto  &phi = tangents_[k];
-          const Vector g_1 = n[0] * phi[0] + n[2] * phi[1];
-          const Vector g_2 = n[1] * phi[1] + n[2] * phi[0];
-          for (unsigned int a = 0; a < force.size(); ++a)
-            {
-              const auto &dN = tying_shapes.gradient(k, a);
-              force[a] += dN[0] * g_1 + dN[1] * g_2;
-            }
-        }
+        this->add_force_at(k, tangents_[k], tying_shapes, force);
     }
 
     /** phi,1 and phi,2 at the tying point @p k. */
@@ -136,20 +82,9 @@ namespace Nacre
       return tangents_[k];
     }
 
-    /** n_k^ab at the tying point @p k, Voigt. */
-    const Voigt<Number> &
-    tying_force(const unsigned int k) const
-    {
-      return forces_[k];
-    }
-
   private:
     /** By tying point. */
     std::vector<std::array<Vector, 2>> tangents_;
-    std::vector<Voigt<Number>>         forces_;
-    /** By sample. */
-    std::vector<Number> samples_;
-    std::vector<Number> sample_forces_;
   };
 
   /**
