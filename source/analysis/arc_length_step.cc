@@ -11,12 +11,14 @@ namespace Nacre
                                const Vector &u,
                                const double  time,
                                const Vector &direction,
-                               const double  length)
+                               const double  length,
+                               const double  rate_step)
     : system_(system)
     , start_(u)
     , start_time_(time)
     , direction_(direction)
     , length_(length)
+    , rate_step_(rate_step)
     , u_(u)
     , time_(time)
   {}
@@ -59,7 +61,7 @@ namespace Nacre
     NewtonSolver::Step step = system_.solve_linearised(u, du);
     if (step.failure.kind != FailureKind::none)
       return step;
-    const ShellSystem::Rate rate     = system_.rate(u, time_);
+    const ShellSystem::Rate rate     = system_.rate(u, time_, rate_step_);
     const Vector           &velocity = rate.velocity;
     double                  dt       = 0.;
     if (!has_predictor_)

@@ -147,12 +147,22 @@ namespace Nacre
     bool               switches = false;
     while (!grid.is_end(state.time) && state.step < parameters_.maximum_steps)
       {
-        double  end     = state.time;
-        Attempt attempt = arc_step(state, end, switches ? &mode : nullptr);
-        if (attempt.result.converged && end > parameters_.end_time)
+        double  end = state.time;
+        Attempt attempt;
+        try
           {
-            end     = parameters_.end_time;
-            attempt = last_arc_step(state, attempt, end);
+            attempt = arc_step(state, end, switches ? &mode : nullptr);
+            if (attempt.result.converged && end > parameters_.end_time)
+              {
+                end     = parameters_.end_time;
+                attempt = last_arc_step(state, attempt, end);
+              }
+          }
+        // As in run().
+        catch (const ExcUndefinedValue &undefined)
+          {
+            return "step " + std::to_string(state.step + 1) + ": " +
+                   error_text(undefined) + " The last good state is kept.";
           }
         if (attempt.result.converged)
           {
@@ -304,7 +314,8 @@ namespace Nacre
     Vector     du   = system_.owned_vector();
     const auto step = system_.solve_linearised(state.motion.u, du);
     return step.failure.kind != FailureKind::none ||
-           system_.rate(state.motion.u, state.time).velocity * state.motion.v >
+           system_.rate(state.motion.u, state.time, rate_step()).velocity *
+               state.motion.v >
              0.;
   }
 
@@ -321,7 +332,8 @@ namespace Nacre
                        state.motion.u,
                        state.time,
                        tangent,
-                       speed > 0. ? state.next_step * speed : state.next_step);
+                       speed > 0. ? state.next_step * speed : state.next_step,
+                       rate_step());
     if (mode != nullptr)
       {
         Vector predictor(*mode);

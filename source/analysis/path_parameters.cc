@@ -218,6 +218,11 @@ namespace Nacre
     read_start(constants, path);
     if (path.type == AnalysisType::arc_length)
       check_arc_length(path);
+    else
+      AssertThrow(path.switch_branch == 0,
+                  ExcMessage(
+                    "Analysis/Switch branch: Type = " + name_of(path.type) +
+                    " finds no branches; choose 'arc length', or 0."));
     return path;
   }
 

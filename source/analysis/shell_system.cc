@@ -156,9 +156,8 @@ namespace Nacre
   }
 
   ShellSystem::Rate
-  ShellSystem::rate(const Vector &u, const double time)
+  ShellSystem::rate(const Vector &u, const double time, const double dt)
   {
-    const double dt     = 1e-3;
     const double before = time - dt, after = time + dt;
     // How prescribed displacements move the shell, K(u) g, and how loads do.
     const Vector change = prescribed_change(before, after);

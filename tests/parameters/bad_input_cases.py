@@ -93,6 +93,8 @@ case("arc_length_damping", ["Analysis/Damping of iterations", "choose 1"],
 case("arc_length_frozen", ["Discretization/Tangent", "'frozen'"],
      {**ARC, "Discretization/Kinematics": "corotational",
       "Discretization/Tangent": "frozen"})
+case("switch_branch_of_static", ["Analysis/Switch branch", "arc length"],
+     {"Analysis/Type": "static", "Analysis/Switch branch": "1"})
 case("arc_length_adaptive", ["Adaptive refinement/Cycles", "arc length"],
      {**ARC, "Adaptive refinement/Cycles": "2"})
 case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],

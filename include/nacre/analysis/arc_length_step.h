@@ -30,12 +30,14 @@ namespace Nacre
      * @param direction a vector on whose side the step goes; zero: t rises
      * @param length |du| of the step (length), sum over all dofs; for a
      *   direction of zero the change of t
+     * @param rate_step for ShellSystem::rate()
      */
     ArcLengthStep(ShellSystem  &system,
                   const Vector &u,
                   const double  time,
                   const Vector &direction,
-                  const double  length);
+                  const double  length,
+                  const double  rate_step);
 
     /**
      * Begin with @p predictor (length) instead, at the same time: at a
@@ -81,6 +83,7 @@ namespace Nacre
     const double  start_time_;
     const Vector &direction_;
     const double  length_;
+    const double  rate_step_;
     Vector        u_;
     double        time_;
     Vector        predictor_;

@@ -147,6 +147,13 @@ namespace Nacre
     Attempt
     arc_step(const PathState &state, double &end, const Vector *mode = nullptr);
 
+    /** Of derivatives with respect to the time. */
+    double
+    rate_step() const
+    {
+      return 0.01 * parameters_.time_step;
+    }
+
     /** The mode of the tangent's smallest eigenvalue, its largest entry 1. */
     Vector
     lowest_mode(const PathState &state);

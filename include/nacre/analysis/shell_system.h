@@ -113,7 +113,8 @@ namespace Nacre
      * du/dt (length/time) of equilibrium at @p u, with the matrix that
      * solve_linearised() has solved with last: K du/dt = -r,t, displacements
      * that are prescribed at @p time included. Derivatives with respect to the
-     * time are central differences, exact for loads that are linear in it.
+     * time are differences over @p dt to both sides, exact for loads that are
+     * linear in it.
      */
     struct Rate
     {
@@ -123,7 +124,7 @@ namespace Nacre
     };
 
     Rate
-    rate(const Vector &u, const double time);
+    rate(const Vector &u, const double time, const double dt);
 
     /** -r(u) . du with the constraints eliminated. */
     double
