@@ -205,21 +205,25 @@ namespace Nacre
       std::min<types::global_dof_index>(n_free_ - spectrum.n_below,
                                         n_free_ - block_size);
     unsigned int n_sought = std::min(n + n_extra, n_most);
-    for (bool is_complete = false; !is_complete;
-         n_sought         = std::min(2 * n_sought, n_most))
+    while (true)
       {
-                count_below(shift);
-                add_pairs(search(n_sought, true, spectrum.modes),
+        count_below(shift);
+        add_pairs(search(n_sought, true, spectrum.modes),
                   shift,
                   {shift, infinity},
                   spectrum);
-                if (spectrum.values.empty())
+        if (spectrum.values.empty())
           return spectrum;
-        const auto place =
-                  place_to_count(spectrum.values, n, n_most, tolerance);
-                is_complete = place.has_value();
-                if (is_complete)
-          complete(shift, *place, spectrum);
+        // After a search for all there are no more.
+        const unsigned int n_there =
+          n_sought == n_most ? spectrum.values.size() : n_most;
+        if (const auto place =
+              place_to_count(spectrum.values, n, n_there, tolerance))
+          {
+            complete(shift, *place, spectrum);
+            break;
+          }
+        n_sought = std::min(2 * n_sought, n_most);
       }
     const unsigned int n_kept =
       std::lower_bound(spectrum.values.begin(),

@@ -3,6 +3,7 @@
 
 #include <nacre/analysis/mode_parameters.h>
 #include <nacre/base/text.h>
+#include <nacre/mechanics/surface_axes.h>
 
 namespace Nacre
 {
@@ -99,9 +100,9 @@ namespace Nacre
                                               "Analysis/Membrane force",
                                               constants,
                                               "x,y,z,t");
-    options.force_axis           = VectorExpression(force_axis_text_,
-                                          "Analysis/Membrane force axis",
-                                          constants);
+    options.force_axis           = read_direction(force_axis_text_,
+                                        "Analysis/Membrane force axis",
+                                        constants);
     const auto ends = Text::split(range_text_, ',', "Analysis/Range of modes");
     if (ends.empty())
       return options;

@@ -5,10 +5,10 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/stress_stiffness.h>
+#include <nacre/mechanics/surface_axes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Nacre
 {
@@ -31,22 +31,6 @@ namespace Nacre
           n[v] = (N_1 * a_a) * (e_1 * a_b) + (N_2 * a_a) * (e_2 * a_b);
         }
       return n;
-    }
-
-    /** The unit vector along the projection of @p axis on the surface. */
-    Tensor<1, spacedim>
-    projected_axis(const Tensor<1, 3>   &axis,
-                   const SurfaceFrame<> &frame,
-                   const Point<3>       &point)
-    {
-      const auto         tangential = axis - (axis * frame.t0) * frame.t0;
-      std::ostringstream message;
-      message << "Analysis/Membrane force axis: (" << axis
-              << ") is normal to the surface at the point (" << point
-              << "); choose another vector.";
-      AssertThrow(tangential.norm() > 1e-6 * axis.norm(),
-                  ExcMessage(message.str()));
-      return tangential / tangential.norm();
     }
   } // namespace
 
@@ -198,11 +182,13 @@ namespace Nacre
         [&](const ShellCellValues &values, const unsigned int q) {
           const auto point = values.point(q);
           const auto N     = factor * options_.membrane_force(point, instant);
-          return contravariant_force(N,
-                                     projected_axis(options_.force_axis(point),
-                                                    values.frame(q),
-                                                    point),
-                                     values.frame(q));
+          return contravariant_force(
+            N,
+            projected_direction(options_.force_axis(point),
+                                values.frame(q).t0,
+                                point,
+                                "Analysis/Membrane force axis"),
+            values.frame(q));
         },
         constraints_,
         matrix);
