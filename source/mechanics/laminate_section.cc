@@ -151,7 +151,8 @@ namespace Nacre
                   texts_.direction,
                   "The axis 1 is its projection onto the surface: x, y, z or "
                   "three expressions of x, y, z, as '-y, x, 0' around the axis "
-                  "z. Units: none.");
+                  "z. Or u, v: along the lines of this parameter of the "
+                  "surface, in which it grows. Units: none.");
     add_parameter("Top",
                   top_text_,
                   "Where the top of the stack is. normal: on the side of the "
@@ -298,9 +299,13 @@ namespace Nacre
         checked_thickness(thickness(layup, Point<3>()), whole, Point<3>());
     layup.offset =
       evaluate_number(texts.offset, name("Offset", "offset"), known);
-    layup.direction = read_direction(texts.direction,
-                                     name("Material direction", "direction"),
-                                     constants);
+    const std::string direction = Text::trim(texts.direction);
+    if (direction == "u" || direction == "v")
+      layup.line = direction == "u" ? 0 : 1;
+    else
+      layup.direction = read_direction(direction,
+                                       name("Material direction", "direction"),
+                                       constants);
     return layup;
   }
 
@@ -383,11 +388,20 @@ namespace Nacre
         names.push_back(name);
         layups.push_back(&layup);
       }
+    lines_of_id_ = mesh.parameter_lines;
     layup_of_id_.clear();
     for (const unsigned int k :
          assign_regions(mesh, names, parameters + "Regions"))
       layup_of_id_.push_back(k == numbers::invalid_unsigned_int ? &layup_ :
                                                                   layups[k]);
+    layups.push_back(&layup_);
+    for (const Layup *const layup : layups)
+      AssertThrow(!layup->line || !lines_of_id_.empty(),
+                  ExcMessage(parameters +
+                             "Material direction: this surface has no lines of "
+                             "parameters u and v, as surfaces over a rectangle "
+                             "of (u, v) have; give x, y, z or three "
+                             "expressions of x, y, z."));
   }
 
   void
@@ -433,6 +447,18 @@ namespace Nacre
     return layup(point).laminate.density();
   }
 
+  Tensor<1, 3>
+  LaminateSection::direction(const Layup          &layup,
+                             const SurfaceFrame<> &frame,
+                             const SectionPoint   &point) const
+  {
+    if (!layup.line)
+      return layup.direction(point);
+    AssertIndexRange(point.region(), lines_of_id_.size());
+    const auto &line = lines_of_id_[point.region()][*layup.line];
+    return line[0] * frame.a_cov[0] + line[1] * frame.a_cov[1];
+  }
+
   LaminateSection::Axes
   LaminateSection::axes(const Layup          &layup,
                         const SurfaceFrame<> &frame,
@@ -441,7 +467,7 @@ namespace Nacre
     const auto  &t0 = frame.t0;
     const double side =
       top_ ? side_of((*top_)(point), t0, point, parameters + "Top") : 1.;
-    const auto  e1 = projected_direction(layup.direction(point),
+    const auto  e1 = projected_direction(direction(layup, frame, point),
                                         t0,
                                         point,
                                         parameters + "Material direction");

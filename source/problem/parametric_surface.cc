@@ -47,6 +47,8 @@ namespace Nacre
   {
     order_cells();
     find_lines();
+    if (description_.has_parameter_lines)
+      find_parameter_lines();
     if (!description_.is_checked)
       {
         check_not_degenerate(where);
@@ -129,6 +131,31 @@ namespace Nacre
   ParametricSurface::notes() const
   {
     return description_.notes;
+  }
+
+
+  void
+  ParametricSurface::find_parameter_lines()
+  {
+    auto &regions = description_.regions;
+    Assert(regions.regions.size() == 1, ExcNotImplemented());
+    for (auto &cell : description_.cells)
+      {
+        std::array<std::array<double, 2>, 2> lines{};
+        for (unsigned int alpha = 0; alpha < 2; ++alpha)
+          {
+            const auto         side = cell.chart[alpha + 1] - cell.chart[0];
+            const unsigned int parameter =
+              std::abs(side[1]) > std::abs(side[0]) ? 1 : 0;
+            lines[parameter][alpha] = side[parameter] > 0. ? 1. : -1.;
+          }
+        auto      &known = regions.parameter_lines;
+        const auto found = std::find(known.begin(), known.end(), lines);
+        cell.region      = found - known.begin();
+        if (found == known.end())
+          known.push_back(lines);
+      }
+    regions.regions.resize(regions.parameter_lines.size());
   }
 
 

@@ -363,8 +363,9 @@ namespace Nacre
     const unsigned int n_v = v.size() - (rectangle.closed[1] ? 1 : 0);
 
     SurfaceDescription surface;
-    surface.n_vertices = n_u * n_v;
-    surface.map        = std::move(map);
+    surface.n_vertices          = n_u * n_v;
+    surface.map                 = std::move(map);
+    surface.has_parameter_lines = true;
     for (unsigned int j = 0; j + 1 < v.size(); ++j)
       for (unsigned int i = 0; i + 1 < u.size(); ++i)
         {

@@ -109,6 +109,9 @@ laminate("direction_zero", [L + "Material direction", "no length"],
          Material_direction="0, 0, 0")
 laminate("direction_components", [L + "Material direction", "2", "three"],
          Material_direction="1, 0")
+case("direction_no_lines",
+     [L + "Material direction", "no lines of parameters u and v", "x, y, z"],
+     {"Mid-surface/Surface": "disk", L + "Material direction": "u"})
 laminate("top_tangent", [L + "Top", "tangent", "point"], Top="x")
 laminate("region_unknown", [L + "Regions", "'web'", "no region"],
          Regions="web: stack = [0]4")

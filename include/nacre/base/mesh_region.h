@@ -4,6 +4,7 @@
 #ifndef nacre_base_mesh_region_h
 #define nacre_base_mesh_region_h
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ namespace Nacre
     std::vector<MeshRegion> regions = std::vector<MeshRegion>(1);
     /** Whether "WEB" and "Web" are one name. */
     bool names_ignore_case = false;
+    /**
+     * By region: the directions of the lines of the parameters u and v, each as
+     * its components along the covariant vectors a_1 and a_2 of a cell. Empty
+     * if the surface has no such parameters.
+     */
+    std::vector<std::array<std::array<double, 2>, 2>> parameter_lines = {};
   };
 } // namespace Nacre
 

@@ -22,11 +22,12 @@ namespace Nacre
    * A section of orthotropic plies: classical lamination theory, Laminate.
    *
    * The plies' angles are measured from the axis 1, the projection of the
-   * material direction onto the surface, towards the axis 2 = top x 1; `top` is
-   * the unit normal on the side of the stack's top. That is the side of the
-   * normal t0, or the side to which the vector field of 'Top' points. Both
-   * depend on the position only, so that the stack is the same body whatever
-   * the numbering and the orientation of a cell.
+   * material direction onto the surface or the line of a parameter of the
+   * surface, towards the axis 2 = top x 1; `top` is the unit normal on the side
+   * of the stack's top. That is the side of the normal t0, or the side to which
+   * the vector field of 'Top' points. Both depend on the position only, so that
+   * the stack is the same body whatever the numbering and the orientation of a
+   * cell.
    */
   class LaminateSection
     : public LinearSectionLaw
@@ -98,6 +99,8 @@ namespace Nacre
       bool             has_own_thickness = false;
       double           offset            = 0.;
       VectorExpression direction;
+      /** In place of the direction the line of the parameter u (0) or v (1). */
+      std::optional<unsigned int> line;
       /** The parameter, for messages. */
       std::string where;
     };
@@ -146,6 +149,12 @@ namespace Nacre
     double
     thickness(const Layup &layup, const SectionPoint &point) const;
 
+    /** Along the axis 1, or with a part normal to the surface; any length. */
+    Tensor<1, 3>
+    direction(const Layup          &layup,
+              const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const;
+
     Axes
     axes(const Layup          &layup,
          const SurfaceFrame<> &frame,
@@ -167,9 +176,11 @@ namespace Nacre
     Layup                           layup_;
     std::map<std::string, Layup>    regions_;
     std::vector<const Layup *>      layup_of_id_;
-    std::optional<VectorExpression> top_;
-    std::optional<double>           thickness_of_study_;
-    bool                            is_coupled_ = false;
+    /** By region: the lines of u and v, MeshRegions::parameter_lines. */
+    std::vector<std::array<std::array<double, 2>, 2>> lines_of_id_;
+    std::optional<VectorExpression>                   top_;
+    std::optional<double>                             thickness_of_study_;
+    bool                                              is_coupled_ = false;
   };
 } // namespace Nacre
 

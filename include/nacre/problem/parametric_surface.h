@@ -119,6 +119,11 @@ namespace Nacre
     EdgeNames                    edge_names = {};
     MeshRegions                  regions    = {};
     /**
+     * Whether the cells are rectangles of the chart (u, v), so that their sides
+     * are parameter lines. Such a surface names no regions.
+     */
+    bool has_parameter_lines = false;
+    /**
      * Whether the maker knows that no cell is degenerate and that cells meet,
      * where finding out here would be dear.
      */
@@ -213,6 +218,10 @@ namespace Nacre
 
     void
     find_lines();
+
+    /** Cells whose sides are other parameter lines make another region. */
+    void
+    find_parameter_lines();
 
     unsigned int
     edge_of(const CellLine &line) const;
