@@ -70,10 +70,10 @@ def cases():
         "hemisphere": Case("hemisphere", "3.4 hemisphere", (12, 12)),
         "pullout": Case("pullout", "3.5 pull-out", (12, 8)),
         "pinched_cylinder": Case("pinched_cylinder", "3.6 pinched cylinder",
-                                 (16, 16))}
+                                 (32, 32))}
     for lay_up in LAMINATES:
         result[f"semicylinder_{lay_up}"] = Case(
-            "semicylinder", "3.7 semicylinder", (16, 16), **laminate(lay_up))
+            "semicylinder", "3.7 semicylinder", (12, 12), **laminate(lay_up))
     thin = {"Section__Thickness": "6.35",
             "Section__Laminate__Thickness": "6.35",
             "Analysis__Time_step": "0.02",
