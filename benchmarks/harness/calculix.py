@@ -60,16 +60,17 @@ PROBLEMS = {
         "watch": ((0, 0), 1), "reference": 0.09352155}}
 
 
-def grid(n):
-    """Numbers of the nodes (i, j) of n x n 8-node cells; cells as lists."""
+def grid(n, m=None):
+    """Numbers of the nodes (i, j) of n x m 8-node cells; cells as lists."""
+    m = m or n
     numbers = {}
-    for j in range(2 * n + 1):
+    for j in range(2 * m + 1):
         for i in range(2 * n + 1):
             if i % 2 == 0 or j % 2 == 0:
                 numbers[i, j] = len(numbers) + 1
     around = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1))
     cells = [[numbers[2 * i + a, 2 * j + b] for a, b in around]
-             for j in range(n) for i in range(n)]
+             for j in range(m) for i in range(n)]
     return numbers, cells
 
 
@@ -113,18 +114,22 @@ def local(axes, direction):
     raise ValueError(f"the direction {direction} is no axis of {axes}")
 
 
-def on_edge(edge, i, j, n):
+def on_edge(edge, i, j, n, m):
     coordinate, end = edge
-    return (i if coordinate == "u" else j) == 2 * n * end
+    return i == 2 * n * end if coordinate == "u" else j == 2 * m * end
 
 
-def conditions(problem, numbers, n):
+def conditions(problem, numbers, n, m):
     """Local axes of nodes, and what is held: (node, degree of freedom)."""
     axes, held = {}, set()
     for (i, j), number in numbers.items():
-        at = (i / (2 * n), j / (2 * n))
+        at = (i / (2 * n), j / (2 * m))
+        if any(on_edge(edge, i, j, n, m)
+               for edge in problem.get("clamped", ())):
+            held |= {(number, k) for k in range(1, 7)}
+            continue
         for edge, plane in problem["symmetry"].items():
-            if not on_edge(edge, i, j, n):
+            if not on_edge(edge, i, j, n, m):
                 continue
             if number not in axes:
                 axes[number] = symmetry_node(problem["position"], plane, *at)
@@ -134,8 +139,11 @@ def conditions(problem, numbers, n):
                 assert k == 1
                 held |= {(number, 2), (number, 4)}
         directions = [d for edge, held_there in problem["held"].items()
-                      if on_edge(edge, i, j, n) for d in held_there]
+                      if on_edge(edge, i, j, n, m) for d in held_there]
         directions += problem["points"].get(at, ())
+        if set(directions) == {0, 1, 2}:  # in any axes
+            held |= {(number, k) for k in (1, 2, 3)}
+            continue
         for direction in directions:
             k = local(axes[number], direction)[0] if number in axes \
                 else direction
@@ -143,17 +151,36 @@ def conditions(problem, numbers, n):
     return axes, held
 
 
-def deck(problem, n, element):
-    """The input of CalculiX as text."""
-    numbers, cells = grid(n)
+def step(problem, numbers, n, m, axes):
+    """The linear analysis of the loads."""
+    lines = ["*STEP", "*STATIC"]
+    if problem["gravity"]:
+        lines += ["*DLOAD", "SHELL, GRAV, 1., 0., 0., -1."]
+    return lines + point_forces(problem, numbers, n, m, axes) + \
+        ["*NODE PRINT, NSET=WATCH, GLOBAL=YES", "U", "*END STEP"]
+
+
+def point_forces(problem, numbers, n, m, axes):
+    lines = ["*CLOAD"] if problem["forces"] else []
+    for (u, v), direction, value in problem["forces"]:
+        node = numbers[2 * n * u, 2 * m * v]
+        k, sign = local(axes[node], direction)
+        lines.append(f"{node}, {k + 1}, {sign * value}")
+    return lines
+
+
+def deck(problem, n, element, make_step=step):
+    """The input of CalculiX as text: n cells along u."""
+    m = problem.get("cells_along_v", lambda n: n)(n)
+    numbers, cells = grid(n, m)
     lines = ["*NODE, NSET=ALL"]
     for (i, j), number in numbers.items():
-        x = problem["position"](i / (2 * n), j / (2 * n))
+        x = problem["position"](i / (2 * n), j / (2 * m))
         lines.append(f"{number}, " + ", ".join(f"{c:.15g}" for c in x))
     lines.append(f"*ELEMENT, TYPE={element}, ELSET=SHELL")
     for k, cell in enumerate(cells):
         lines.append(f"{k + 1}, " + ", ".join(str(node) for node in cell))
-    axes, held = conditions(problem, numbers, n)
+    axes, held = conditions(problem, numbers, n, m)
     for node, (first, second, _) in axes.items():
         lines += [f"*NSET, NSET=N{node}", str(node),
                   f"*TRANSFORM, NSET=N{node}, TYPE=R",
@@ -164,20 +191,10 @@ def deck(problem, n, element):
     density = problem["gravity"] / problem["h"] or 1.
     lines += ["*MATERIAL, NAME=STUFF", "*ELASTIC",
               f"{problem['E']}, {problem['nu']}", "*DENSITY", f"{density}",
-              "*SHELL SECTION, ELSET=SHELL, MATERIAL=STUFF", f"{problem['h']}",
-              "*STEP", "*STATIC"]
-    if problem["gravity"]:
-        lines += ["*DLOAD", "SHELL, GRAV, 1., 0., 0., -1."]
-    if problem["forces"]:
-        lines.append("*CLOAD")
-        for (u, v), direction, value in problem["forces"]:
-            node = numbers[2 * n * u, 2 * n * v]
-            k, sign = local(axes[node], direction)
-            lines.append(f"{node}, {k + 1}, {sign * value}")
+              "*SHELL SECTION, ELSET=SHELL, MATERIAL=STUFF", f"{problem['h']}"]
     (u, v), _ = problem["watch"]
-    lines += ["*NSET, NSET=WATCH", str(numbers[2 * n * u, 2 * n * v]),
-              "*NODE PRINT, NSET=WATCH, GLOBAL=YES", "U", "*END STEP"]
-    return "\n".join(lines) + "\n"
+    lines += ["*NSET, NSET=WATCH", str(numbers[2 * n * u, 2 * m * v])]
+    return "\n".join(lines + make_step(problem, numbers, n, m, axes)) + "\n"
 
 
 def watched(dat, direction):
