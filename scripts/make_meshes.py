@@ -9,7 +9,8 @@
                            write them elsewhere, the roofs with N x N cells
 
 A quarter of the Scordelis-Lo roof, x = (R sin u, v, R cos u), 0 <= u <= 40
-degrees, 0 <= v <= L/2, in several formats, and a strip folded twice.
+degrees, 0 <= v <= L/2, in several formats, a strip folded twice, and sectors
+of spherical caps.
 """
 
 import argparse
@@ -249,6 +250,65 @@ def folded_strip():
                 lambda i, j: "base" if i < 4 else "wall" if i < 6 else "lid")
 
 
+def cap(half_angle, sector=90., radius=1., n=2):
+    """A sector of a cap of a sphere about z: three patches, n x n."""
+    mesh, number = Mesh(), {}
+
+    def blend(corners, u, v):
+        weights = (1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v
+        return [sum(w * x[c] for w, x in zip(weights, corners))
+                for c in (0, 1)]
+
+    def outer(u, v, mirrored):
+        angle = v * math.pi / 4
+        inside = blend([(0.5, 0), (0.5, 0), (0.4, 0.4), (0.4, 0.4)], u, v)
+        x, y = [a + u * (b - a) for a, b in
+                zip(inside, (math.cos(angle), math.sin(angle)))]
+        return (y, x) if mirrored else (x, y)
+
+    patches = (lambda u, v: blend([(0, 0), (0.5, 0), (0.4, 0.4), (0, 0.5)],
+                                  u, v),
+               lambda u, v: outer(u, v, False), lambda u, v: outer(v, u, True))
+
+    def node(patch, i, j):
+        x, y = patch(i / (2 * n), j / (2 * n))
+        r = math.hypot(x, y) * math.radians(half_angle)
+        around_z = math.atan2(y, x) * sector / 90.
+        position = (radius * math.sin(r) * math.cos(around_z),
+                    radius * math.sin(r) * math.sin(around_z),
+                    radius * math.cos(r))
+        key = tuple(round(c, 9) for c in position)
+        if key not in number:
+            mesh.nodes.append(position)
+            number[key] = len(mesh.nodes)
+        return number[key]
+
+    def line(name, points):
+        mesh.lines.append((group(mesh.line_groups, name),
+                           [points[0], points[2], points[1]]))
+
+    around = ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1),
+              (1, 1))
+    for p, patch in enumerate(patches):
+        for j in range(0, 2 * n, 2):
+            for i in range(0, 2 * n, 2):
+                mesh.cells.append((group(mesh.cell_groups, "cap"),
+                                   [node(patch, i + a, j + b)
+                                    for a, b in around]))
+        for i in range(0, 2 * n, 2):
+            along_u = [node(patch, i + k, 0) for k in range(3)]
+            along_v = [node(patch, 0, i + k) for k in range(3)]
+            if p != 2:
+                line("begin", along_u)
+            if p != 1:
+                line("end", along_v)
+            if p == 1:
+                line("rim", [node(patch, 2 * n, i + k) for k in range(3)])
+            if p == 2:
+                line("rim", [node(patch, i + k, 2 * n) for k in range(3)])
+    return mesh
+
+
 def files(n_cells):
     title = "A quarter of the Scordelis-Lo roof"
     q9, q8 = roof(n_cells, 9), roof(n_cells, 8)
@@ -260,7 +320,10 @@ def files(n_cells):
             "roof.ucd": ucd(q8, title),
             "roof_first_order.msh": gmsh_4(roof(n_cells, 4)),
             "roof_triangles.msh": gmsh_2(triangles(q9, n_cells)),
-            "strip.msh": gmsh_4(folded_strip())}
+            "strip.msh": gmsh_4(folded_strip()),
+            "cap_6.msh": gmsh_2(cap(18.998073)),
+            "cap_8.msh": gmsh_2(cap(25.422925, 45.)),
+            "cap_dynamic.msh": gmsh_2(cap(26.67, radius=22.27))}
 
 
 def agree(old, new):

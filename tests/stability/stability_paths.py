@@ -1,0 +1,234 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Paths of prm/benchmarks past limit and bifurcation points, motions, and rows
+of doc/stability.md whose parameters hold semicolons.
+
+  stability_paths.py --list
+  stability_paths.py NACRE CASE
+
+Each case runs a file on a coarse mesh and compares points of its path with the
+references of doc/benchmarks/stability_paths.md and dynamics.md.
+"""
+import argparse
+import csv
+import math
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import run_study  # noqa: E402  (found by the line above)
+
+BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
+
+
+def near(what, value, expected, tolerance):
+    text = f"{what}: {value}, expected {expected} (relative {tolerance})"
+    print(text)
+    if not abs(value - expected) <= tolerance * abs(expected):
+        raise run_study.Failure(text)
+
+
+def point(points, number, pivots, expected, tolerance):
+    """The number-th point: pivots before and after, load factor."""
+    if len(points) <= number:
+        raise run_study.Failure(f"{len(points)} points")
+    row = points[number]
+    found = int(row["pivots_before"]), int(row["pivots_after"])
+    if found != pivots:
+        raise run_study.Failure(f"negative pivots {found}, not {pivots}")
+    near(f"point {number}", float(row["load_factor"]), expected, tolerance)
+    return row
+
+
+def at(rows, time):
+    return min(rows, key=lambda row: abs(row["time"] - time))
+
+
+def hinged(rows, points, table):
+    first = point(points, 0, (0, 1), 0.70539241, 1e-4)
+    near("w there", float(first["w"]), -0.0532757, 1e-4)
+    limit = point(points, 1, (1, 2), 0.79724734, 1e-4)
+    near("w there", float(limit["w"]), -0.0976460, 1e-3)
+
+
+def second_branch(rows, points, table):
+    """The crown moves sideways, and the load falls."""
+    first = point(points, 0, (0, 1), 0.70539241, 1e-4)
+    after = [row for row in rows if row["w"] < float(first["w"])]
+    if not (max(row["time"] for row in after) < 0.7 and
+            all(abs(row["u"]) > 0.004 for row in after)):
+        raise run_study.Failure(f"not on the second branch: {after}")
+
+
+def deep(rows, points, table):
+    """h/R = 1/100, half of the cells of the page."""
+    limit = point(points, 0, (0, 1), 0.89688232, 3e-3)
+    near("w there", float(limit["w"]), -113.710, 3e-3)
+
+
+RING = ((3.1, 1.17338701, 0.78332389), (4, 1.35686902, 0.29133701),
+        (5, 1.37162233, 0.04395922))
+
+
+def ring(rows, points, table):
+    for pressure, long, short in RING:
+        row = at(rows, pressure)
+        near(f"p = {pressure}: long semi-axis", 1 + row["c"], long, 1e-3)
+        near("short semi-axis, over R", 1 + (1 + row["d"]), 1 + short, 1e-3)
+    near("the walls touch", rows[-1]["d"], -1., 1e-4)
+
+
+def plate(rows, points, table):
+    point(points, 0, (0, 1), 1., 1e-3)
+    n_cr = 3.61520e-6  # 4 pi^2 D/a^2
+    near("N/N_cr", rows[-1]["N"] / (n_cr / 2), 1.38380, 2e-4)
+    near("w/h", abs(rows[-1]["w"]) / 0.01, 1.2979, 1e-3)
+
+
+def cap_6(rows, points, table):
+    point(points, 0, (0, 1), 0.7641315, 1e-3)
+
+
+def cap_8(rows, points, table):
+    point(points, 0, (0, 1), 0.7588446, 1e-3)
+
+
+def cylinder(rows, points, table):
+    point(points, 0, (0, 1), 0.8331983, 2e-3)
+
+
+def imperfect(rows, points, table):
+    point(points, 0, (0, 1), 0.2507458, 2e-3)
+
+
+def sudden_plate(rows, points, table):
+    """w D/(q a^4) at t/T = 0.05 and 0.1."""
+    scale = 0.01**3 / 12 / 0.91 / 1e-10
+    period = (0.01 / (0.01**3 / 12 / 0.91))**0.5
+    for tau, expected in (0.05, 0.00179035), (0.1, 0.00558268):
+        near(f"tau {tau}", at(rows, tau * period)["w"] * scale, expected, 5e-3)
+
+
+def sudden_cap(rows, points, table):
+    """The apex; what the first waves do needs finer meshes."""
+    for time, expected in (0.3, -0.0574), (0.4, -0.0910):
+        near(f"{time} ms", at(rows, time * 1e-3)["w"], expected, 1e-2)
+
+
+def clamped(rows, points, table):
+    """The load factor times the reaction that the end shortening makes."""
+    n_cl = 0.005**2 / (3 * 0.91)**0.5
+    ratio = -table[0]["N"] / (n_cl * math.pi / 12)
+    near("N/N_cl", table[0]["k"] * ratio, 1.0019386, 5e-5)
+
+
+def values(tolerance, **expected):
+    """A check of columns of the study's table."""
+    def check(rows, points, table):
+        for name, value in expected.items():
+            near(name, table[0][name], value, tolerance)
+    return check
+
+
+SUBDIVISIONS = "Mid-surface/Subdivisions"
+STEPS = "Analysis/Maximum steps"
+CASES = {
+    "arch_hinged": ("path_arch_hinged", {STEPS: "11"}, hinged),
+    "arch_second_branch": ("path_arch_hinged", {
+        "Analysis/Switch branch": "1", STEPS: "10"}, second_branch),
+    "arch_deep": ("path_arch_deep", {SUBDIVISIONS: "8, 1", STEPS: "12"}, deep),
+    "ring": ("path_ring", {SUBDIVISIONS: "6, 1"}, ring),
+    "plate": ("path_plate", {SUBDIVISIONS: "2, 2"}, plate),
+    "cap_6": ("path_cap", {STEPS: "4"}, cap_6),
+    "cap_8": ("path_cap", {
+        STEPS: "4",
+        "Mid-surface/file/File name": "../meshes/cap_8.msh"}, cap_8),
+    "cylinder": ("path_cylinder", {SUBDIVISIONS: "12, 2"}, cylinder),
+    "cylinder_imperfect": ("path_cylinder", {
+        SUBDIVISIONS: "16, 2", "Analysis/End time": "0.26",
+        "Analysis/Time step": "0.1",
+        "Constants": "R = 1, L = 2, n = 4, a = 0.5, "
+                     "N_cl = 0.01^2/sqrt(3*(1 - 0.3^2))"}, imperfect),
+    "sudden_plate": ("dynamics_plate", {
+        SUBDIVISIONS: "2, 2", "Analysis/End time": "0.1*T"}, sudden_plate),
+    "sudden_cap": ("dynamics_cap", {
+        "Analysis/Time step": "4e-6", "Analysis/End time": "0.4e-3"},
+                   sudden_cap),
+    "cap_static": ("dynamics_cap", {
+        "Analysis/Type": "static", "Analysis/Time step": "1",
+        "Analysis/End time": "1"}, values(1e-4, w=-0.0365187)),
+    "sphere_breathes": ("dynamics_sphere", {SUBDIVISIONS: "1"},
+                        values(1e-3, ratio=1.)),
+    "tangent_prestress_clamped": ("buckling_prestress", {
+        "Study/Degrees": "4", SUBDIVISIONS: "20, 3",
+        "Constants": "R = 1, L = 1, n = 12, "
+                     "N_cl = 0.005^2/sqrt(3*(1 - 0.3^2))",
+        "Section/Thickness": "0.005", "Boundary conditions/Points": "",
+        "Boundary conditions/Edges":
+            "u=0: clamped; u=1: x = -N_cl*L/h, y = 0, z = 0, rotation = 0; "
+            "v=0, v=1: symmetry",
+        "Loads/Edge forces": "", "Analysis/Prestress": "tangent",
+        "Quantities/Quantities":
+            "k = load factor 1; N = reaction x of u=1"}, clamped),
+    "ring_pressure": ("buckling_pressure", {
+        "Study/Degrees": "4", SUBDIVISIONS: "1, 8",
+        "Constants": "R = 1, L = 0.02, p = 0.01^3/12",
+        "Mid-surface/expression/Range v": "0, pi/2",
+        "Mid-surface/expression/Closed": "none",
+        "Boundary conditions/Edges": "v=0, v=1: symmetry",
+        "Quantities/Quantities": "k = load factor 1"},
+                      values(2e-4, k=3.)),
+    "sphere_pressure": ("buckling_sphere", {
+        SUBDIVISIONS: "5", "Analysis/Number of modes": "1",
+        "Quantities/Quantities": "k = load factor 1"},
+                        values(5e-4, k=0.9945911)),
+    "laminate_clamped": ("../laminates/laminate_clamped", {
+        "Study/Refinements": "0", "Loads/Force per area": "0, 0, 0",
+        "Analysis/Type": "vibration", "Analysis/Number of modes": "2",
+        "Section/Laminate/Stack": "[45/-45]",
+        "Quantities/Quantities": "o = omega 1"},
+                         values(3e-4, o=0.19920876)),
+}
+
+
+def run_case(nacre, file, parameters, check_path):
+    settings = {"Study/Write VTU": "false", **parameters}
+    arguments = argparse.Namespace(
+        nacre=nacre, prm=BENCHMARKS / (file + ".prm"), timeout=300,
+        overrides=[f"{name}={value}" for name, value in settings.items()])
+    with tempfile.TemporaryDirectory() as folder:
+        table = run_study.run_nacre(arguments, 1, folder)
+        output = pathlib.Path(folder, "output")
+
+        def read(name):
+            path = output / name
+            if not path.exists():
+                return []
+            with open(path, newline="", encoding="utf-8") as table:
+                return list(csv.DictReader(table))
+
+        rows = [{name: float(value) for name, value in row.items()}
+                for row in read("study_path.csv")]
+        check_path(rows, read("study_points.csv"), table)
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        print("\n".join(CASES))
+        return 0
+    if len(sys.argv) != 3 or sys.argv[2] not in CASES:
+        sys.exit(__doc__)
+    try:
+        run_case(sys.argv[1], *CASES[sys.argv[2]])
+    except run_study.Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
