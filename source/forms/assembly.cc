@@ -113,9 +113,10 @@ namespace Nacre
     sum_over_ranks(const Energies &mine, const MPI_Comm communicator)
     {
       Energies sum;
-      sum.membrane = Utilities::MPI::sum(mine.membrane, communicator);
-      sum.bending  = Utilities::MPI::sum(mine.bending, communicator);
-      sum.edge     = Utilities::MPI::sum(mine.edge, communicator);
+      sum.membrane   = Utilities::MPI::sum(mine.membrane, communicator);
+      sum.bending    = Utilities::MPI::sum(mine.bending, communicator);
+      sum.edge       = Utilities::MPI::sum(mine.edge, communicator);
+      sum.foundation = Utilities::MPI::sum(mine.foundation, communicator);
       return sum;
     }
   } // namespace

@@ -15,6 +15,7 @@ namespace Nacre
     membrane += other.membrane;
     bending += other.bending;
     edge += other.edge;
+    foundation += other.foundation;
     return *this;
   }
 
