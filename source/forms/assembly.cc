@@ -131,7 +131,9 @@ namespace Nacre
       , state_(state)
       , kinematics_(shell.kinematics_->clone())
       , edge_(shell.discretization_)
-    {}
+    {
+      kinematics_->set_instant(state.actions.loads);
+    }
 
     /** mesh_loop() copies it: scratch data of its own. */
     Worker(const Worker &other)

@@ -262,6 +262,13 @@ namespace Nacre
                            name_of(problem.path.type) +
                            "' is linear; choose 'Analysis/Type = static' or "
                            "'Tension free = no'."));
+    AssertThrow(!problem.model.section.has_initial_strain() ||
+                  (problem.assembly == AssemblyMethod::fast &&
+                   !problem.path.is_dynamic()),
+                ExcMessage("Section/Initial strain: neither 'Discretization/"
+                           "Assembly = reference' nor 'Analysis/Type = "
+                           "dynamic' knows it; choose 'fast', and a static "
+                           "analysis."));
     if (!problem.path.is_linear())
       return;
     AssertThrow(linear_kinematics,

@@ -10,7 +10,10 @@ namespace Nacre
 {
   struct Foundation;
 
-  /** Force per area that holds the shell back at the displacement @p u of a cell's dofs. */
+  /**
+   * Force per area that holds the shell back at the displacement @p u of a
+   * cell's dofs.
+   */
   Tensor<1, spacedim>
   foundation_force(const Foundation             &foundation,
                    const ShellCellValues        &values,

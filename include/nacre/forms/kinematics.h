@@ -80,6 +80,11 @@ namespace Nacre
   public:
     virtual ~Kinematics() = default;
 
+    /** Take the section's initial strains at @p instant from now on. */
+    virtual void
+    set_instant(const Instant & /*instant*/)
+    {}
+
     /** A copy with scratch data of its own. */
     virtual std::unique_ptr<Kinematics>
     clone() const = 0;
