@@ -158,7 +158,10 @@ namespace Nacre
             StressStiffness(discretization_,
                             model_.section,
                             model_.kinematics.membrane_strain)
-              .add(scaled, constraints_, matrix);
+              .add(scaled,
+                   constraints_,
+                   matrix,
+                   {instant.time, factor * instant.factor});
             add_load_stiffness(instant, factor, matrix);
             break;
           }
@@ -259,7 +262,7 @@ namespace Nacre
                                     Matrix       &matrix) const
   {
     const double gradient = largest_gradient(u);
-    if (gradient == 0.)
+    if (gradient == 0. && !model_.section.has_initial_strain())
       return;
     ShellParts parts(model_);
     parts.kinematics.model   = KinematicsModel::finite;
@@ -272,7 +275,7 @@ namespace Nacre
                   discretization_.communicator());
     // Central differences of two steps, extrapolated: the error is of the
     // fourth order in displacement gradients of size 1e-3.
-    const double                    step      = 1e-3 / gradient;
+    const double                    step = gradient > 0. ? 1e-3 / gradient : 1.;
     const std::pair<double, double> stencil[] = {{1., 2. / 3.},
                                                  {-1., -2. / 3.},
                                                  {2., -1. / 12.},

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/discretization/edge_plane.h>
 #include <nacre/discretization/rigid_motions.h>
+#include <nacre/problem/foundation.h>
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
@@ -95,10 +97,12 @@ namespace Nacre
     const Discretization         &discretization,
     const BoundaryConditions     &boundary_conditions,
     const Instant                &instant,
-    const DisplacementConditions *finest)
+    const DisplacementConditions *finest,
+    const Foundation             *foundation)
     : discretization_(discretization)
     , boundary_conditions_(boundary_conditions)
     , instant_(instant)
+    , foundation_(foundation)
     , local_lines_(lines_of_rank(discretization))
   {
     if (finest != nullptr)
@@ -519,6 +523,47 @@ namespace Nacre
                                 axis(condition.component));
     for (const auto &axis : rotation_axes_)
       motions.hold_rotation(axis);
+    if (foundation_ != nullptr && !foundation_->is_zero())
+      {
+        RigidMotions held(extent.first, extent.second);
+        run_on_all_ranks(discretization_.communicator(),
+                         [&]() { hold_by_foundation(held); });
+        motions.add_of_all_ranks(held, discretization_.communicator());
+      }
     return motions.free_motions();
+  }
+
+  void
+  DisplacementConditions::hold_by_foundation(RigidMotions &motions) const
+  {
+    const FE_Nothing<dim, spacedim> nothing(
+      discretization_.element().reference_cell());
+    FEValues<dim, spacedim> fe_values(
+      discretization_.mapping(),
+      nothing,
+      discretization_.element().reduced_quadrature(),
+      update_quadrature_points | update_jacobians);
+    for (const auto &cell :
+         discretization_.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          fe_values.reinit(cell);
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            {
+              const Point<spacedim> x = fe_values.quadrature_point(q);
+              const auto [k_n, k_t]   = foundation_->stiffness(x);
+              const auto   &J         = fe_values.jacobian(q);
+              const Vector3 a_1({J[0][0], J[1][0], J[2][0]});
+              const Vector3 a_2({J[0][1], J[1][1], J[2][1]});
+              const Vector3 t0 = unit(cross_product_3d(a_1, a_2));
+              if (k_n > 0.)
+                motions.hold_displacement(x, t0);
+              if (k_t > 0.)
+                {
+                  motions.hold_displacement(x, unit(a_1));
+                  motions.hold_displacement(x, cross_product_3d(t0, unit(a_1)));
+                }
+            }
+        }
   }
 } // namespace Nacre

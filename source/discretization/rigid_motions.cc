@@ -3,6 +3,8 @@
 
 #include <nacre/discretization/rigid_motions.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <sstream>
@@ -42,6 +44,16 @@ namespace Nacre
   RigidMotions::hold_rotation(const Vector3 &axis)
   {
     hold({{Vector3(), axis}});
+  }
+
+  void
+  RigidMotions::add_of_all_ranks(const RigidMotions &motions,
+                                 const MPI_Comm      communicator)
+  {
+    FullMatrix<double> sum(motions.held_);
+    Utilities::MPI::sum(motions.held_, communicator, sum);
+    // Many points hold together: as much as one of them, or more.
+    held_.add(1. / std::max(1., sum.trace() / (2 * spacedim)), sum);
   }
 
   void

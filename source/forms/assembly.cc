@@ -113,9 +113,10 @@ namespace Nacre
     sum_over_ranks(const Energies &mine, const MPI_Comm communicator)
     {
       Energies sum;
-      sum.membrane = Utilities::MPI::sum(mine.membrane, communicator);
-      sum.bending  = Utilities::MPI::sum(mine.bending, communicator);
-      sum.edge     = Utilities::MPI::sum(mine.edge, communicator);
+      sum.membrane   = Utilities::MPI::sum(mine.membrane, communicator);
+      sum.bending    = Utilities::MPI::sum(mine.bending, communicator);
+      sum.edge       = Utilities::MPI::sum(mine.edge, communicator);
+      sum.foundation = Utilities::MPI::sum(mine.foundation, communicator);
       return sum;
     }
   } // namespace
@@ -130,7 +131,9 @@ namespace Nacre
       , state_(state)
       , kinematics_(shell.kinematics_->clone())
       , edge_(shell.discretization_)
-    {}
+    {
+      kinematics_->set_instant(state.actions.loads);
+    }
 
     /** mesh_loop() copies it: scratch data of its own. */
     Worker(const Worker &other)

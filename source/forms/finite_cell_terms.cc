@@ -92,7 +92,20 @@ namespace Nacre
                                      values.frame(q),
                                      values.point(q),
                                      values.JxW(q));
-        points.sections.back().A *= share;
+        auto &blocks = points.sections.back();
+        blocks.A *= share;
+        if (section_.has_initial_strain())
+          {
+            const double area = values.JxW(q);
+            auto        &held = blocks.initial;
+            held              = section_.initial_forces(values.frame(q),
+                                           values.point(q),
+                                           instant_);
+            held.membrane_force *= share * area;
+            held.membrane_energy *= share * area;
+            held.moment *= area;
+            held.bending_energy *= area;
+          }
       }
     if (!in_step)
       {
@@ -129,6 +142,15 @@ namespace Nacre
         {
           terms.energies.membrane += points.cell.membrane_energy();
           terms.energies.bending += points.cell.bending_energy();
+          if (section_.has_initial_strain())
+            for (unsigned int q = 0; q < points.sections.size(); ++q)
+              {
+                const auto [E, kappa] = points.cell.strains(q);
+                const auto energies =
+                  points.sections[q].initial_energies(E, kappa);
+                terms.energies.membrane += energies[0];
+                terms.energies.bending += points.bends ? energies[1] : 0.;
+              }
         }
       if (terms.wants_tangent)
         add_tangent(points, terms);

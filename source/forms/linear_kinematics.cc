@@ -126,6 +126,43 @@ namespace Nacre
   }
 
   void
+  LinearKinematics::add_initial_terms(const ShellCellValues       &values,
+                                      const std::array<double, 2> &shares,
+                                      const Vector<double>        &u,
+                                      LocalTerms                  &terms) const
+  {
+    if (!section_.has_initial_strain())
+      return;
+    const auto &eps = values.membrane_rows();
+    const auto &rho = values.bending_rows();
+    for (unsigned int q = 0; q < values.n_points(); ++q)
+      {
+        const auto held =
+          section_.initial_forces(values.frame(q), values.point(q), instant_);
+        const double membrane_area = shares[0] * values.JxW(q);
+        const double bending_area  = shares[1] * values.JxW(q);
+        terms.energies.membrane += membrane_area * held.membrane_energy;
+        terms.energies.bending += bending_area * held.bending_energy;
+        for (unsigned int i = 0; i < eps.n(); ++i)
+          {
+            double n_eps = 0., m_rho = 0.;
+            for (unsigned int v = 0; v < 3; ++v)
+              {
+                n_eps +=
+                  membrane_area * held.membrane_force[v] * eps(3 * q + v, i);
+                m_rho += bending_area * held.moment[v] * rho(3 * q + v, i);
+              }
+            terms.residual[i] -= n_eps + m_rho;
+            if (u.size() > 0)
+              {
+                terms.energies.membrane -= n_eps * u[i];
+                terms.energies.bending -= m_rho * u[i];
+              }
+          }
+      }
+  }
+
+  void
   LinearKinematics::add_cell_terms(
     const Triangulation<dim, spacedim>::cell_iterator &cell,
     const Vector<double>                              &u,
@@ -147,6 +184,7 @@ namespace Nacre
                                                u,
                                                terms);
     add_coupling_terms(full_values_, u, terms);
+    add_initial_terms(full_values_, {{share, 1.}}, u, terms);
     if (reduced && share < 1.)
       {
         reduced_values_->reinit(cell);
@@ -157,6 +195,7 @@ namespace Nacre
                            u,
                            terms);
         add_coupling_terms(*reduced_values_, u, terms);
+        add_initial_terms(*reduced_values_, {{1. - share, 0.}}, u, terms);
       }
   }
 
@@ -186,6 +225,7 @@ namespace Nacre
   void
   LinearKinematics::add_edge_residual(const EdgeFluxes     &fluxes,
                                       const double          rotation,
+                                      const double          initial_moment,
                                       const Vector<double> &u,
                                       LocalTerms           &terms) const
   {
@@ -193,7 +233,7 @@ namespace Nacre
     const auto &moment = jump_.mean_moment();
     // With a prescribed rotation, the jump is rotation - theta^-.
     double u_jump   = rotation;
-    double u_moment = 0.;
+    double u_moment = -initial_moment;
     for (unsigned int i = 0; i < u.size(); ++i)
       {
         u_jump += jump[i] * u[i];
@@ -243,7 +283,11 @@ namespace Nacre
         const auto weights = edge_fluxes(edge, q, jump_.stiffness(), penalty);
         if (terms.wants_tangent)
           fill_edge_rows(q, weights);
-        add_edge_residual(weights, rotation[q].angle, u, terms);
+        add_edge_residual(weights,
+                          rotation[q].angle,
+                          mean_initial_moment(edge, q, section_, instant_),
+                          u,
+                          terms);
       }
     // Rank two a point: one dense product for all points.
     if (terms.wants_tangent)

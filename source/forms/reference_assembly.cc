@@ -9,6 +9,7 @@
 #include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/shell_strain.h>
 #include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/foundation.h>
 #include <nacre/problem/loads.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -235,6 +236,19 @@ namespace Nacre
         const auto f = parts_.loads.force_per_area(x, frame.t0, area_density);
         for (const unsigned int i : fe_values.dof_indices())
           part.vector(i) += f * fe_values[displacement].value(i, q) * dA;
+        if (parts_.foundation == nullptr || parts_.foundation->is_zero())
+          continue;
+        // k_n (u . t0) (v . t0) + k_t (u . v - (u . t0) (v . t0))
+        const auto [k_n, k_t] = parts_.foundation->stiffness(x);
+        for (const unsigned int i : fe_values.dof_indices())
+          for (const unsigned int j : fe_values.dof_indices())
+            {
+              const auto   u   = fe_values[displacement].value(j, q);
+              const auto   v   = fe_values[displacement].value(i, q);
+              const double u_v = u * v;
+              const double w_w = (u * frame.t0) * (v * frame.t0);
+              part.matrix(i, j) += (k_n * w_w + k_t * (u_v - w_w)) * dA;
+            }
       }
     if (share == 1.)
       return;

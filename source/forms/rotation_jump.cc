@@ -62,6 +62,34 @@ namespace Nacre
             coupling[v] * rows(3 * q + v, spacedim * a + c);
   }
 
+  double
+  initial_moment(const ShellEdgeValues &edge,
+                 const unsigned int     side,
+                 const unsigned int     q,
+                 const SectionLaw      &section,
+                 const Instant         &instant)
+  {
+    const auto &frame = edge.frame(side, q);
+    const auto  held =
+      section.initial_forces(frame, edge.point(q, side), instant);
+    return edge.sigma(side, q) *
+           (ShellStrain::dyad_of(frame, edge.conormal(side, q)) * held.moment);
+  }
+
+  double
+  mean_initial_moment(const ShellEdgeValues &edge,
+                      const unsigned int     q,
+                      const SectionLaw      &section,
+                      const Instant         &instant)
+  {
+    double mean = 0.;
+    if (section.has_initial_strain())
+      for (unsigned int side = 0; side < edge.n_sides(); ++side)
+        mean +=
+          initial_moment(edge, side, q, section, instant) / edge.n_sides();
+    return mean;
+  }
+
   EdgeFluxes
   edge_fluxes(const ShellEdgeValues &edge,
               const unsigned int     q,

@@ -2,9 +2,11 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/orientation.h>
+#include <nacre/forms/foundation_term.h>
 #include <nacre/forms/load_terms.h>
 #include <nacre/forms/shell_terms.h>
 #include <nacre/forms/stiffness_terms.h>
+#include <nacre/problem/foundation.h>
 #include <nacre/problem/shell_model.h>
 
 namespace Nacre
@@ -16,6 +18,7 @@ namespace Nacre
     , kinematics(model.kinematics)
     , eta(model.eta)
     , load_factor(model.load_factor ? &*model.load_factor : nullptr)
+    , foundation(&model.foundation)
   {}
 
   ShellParts::ShellParts(const SectionLaw            &section,
@@ -45,6 +48,8 @@ namespace Nacre
     terms.push_back(std::make_unique<StrainTerm>());
     terms.push_back(std::make_unique<RotationJumpTerm>());
     terms.push_back(std::make_unique<PrescribedRotationTerm>());
+    if (parts.foundation != nullptr && !parts.foundation->is_zero())
+      terms.push_back(std::make_unique<FoundationTerm>(*parts.foundation));
     if (selection == TermSelection::all && !loads.no_surface_load())
       terms.push_back(std::make_unique<SurfaceLoadTerm>(parts.section, loads));
     if (loads.pressure_follows())

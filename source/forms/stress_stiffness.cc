@@ -91,7 +91,8 @@ namespace Nacre
   void
   StressStiffness::add(const Vector                    &u,
                        const AffineConstraints<double> &constraints,
-                       Matrix                          &matrix) const
+                       Matrix                          &matrix,
+                       const Instant                   &instant) const
   {
     std::vector<double> local;
     loop(
@@ -106,7 +107,10 @@ namespace Nacre
         return stiffness.membrane *
                  strain_of_rows(values.membrane_rows(), q, local) +
                stiffness.coupling *
-                 strain_of_rows(values.bending_rows(), q, local);
+                 strain_of_rows(values.bending_rows(), q, local) -
+               section_
+                 .initial_forces(values.frame(q), values.point(q), instant)
+                 .membrane_force;
       },
       constraints,
       matrix);

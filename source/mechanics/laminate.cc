@@ -23,6 +23,16 @@ namespace Nacre
           largest = std::max(largest, std::abs(matrix[v][w]));
       return largest;
     }
+
+    /** alpha T of a layer at the height @p z, along and across its fibres. */
+    Voigt<>
+    free_expansion(const OrthotropicMaterial &material,
+                   const Temperature         &temperature,
+                   const double               z)
+    {
+      const double T = temperature.mean + z * temperature.gradient;
+      return Voigt<>({material.alpha1 * T, material.alpha2 * T, 0.});
+    }
   } // namespace
 
   Laminate::Laminate(const std::vector<Layer> &layers)
@@ -85,10 +95,11 @@ namespace Nacre
   }
 
   std::vector<LayerState>
-  Laminate::states(const Voigt<> &eps,
-                   const Voigt<> &kappa,
-                   const double   h,
-                   const double   offset) const
+  Laminate::states(const Voigt<>     &eps,
+                   const Voigt<>     &kappa,
+                   const double       h,
+                   const double       offset,
+                   const Temperature &temperature) const
   {
     std::vector<LayerState> result;
     for (const auto &layer : layers_)
@@ -99,7 +110,8 @@ namespace Nacre
           {
             const double z     = h * heights[face] + offset;
             state.height[face] = z;
-            state.strain[face] = layer.to_ply * (eps + z * kappa);
+            state.strain[face] = layer.to_ply * (eps + z * kappa) -
+                                 free_expansion(layer.material, temperature, z);
             state.stress[face] = layer.Q * state.strain[face];
             if (!layer.material.strengths)
               continue;
@@ -117,17 +129,47 @@ namespace Nacre
   }
 
   Voigt<>
-  Laminate::stress(const Voigt<> &eps,
-                   const Voigt<> &kappa,
-                   const double   zeta,
-                   const double   h,
-                   const double   offset) const
+  Laminate::stress(const Voigt<>     &eps,
+                   const Voigt<>     &kappa,
+                   const double       zeta,
+                   const double       h,
+                   const double       offset,
+                   const Temperature &temperature) const
   {
     const auto layer =
       std::find_if(layers_.begin(), layers_.end() - 1, [&](const auto &l) {
         return zeta < l.top;
       });
+    const double z = h * zeta + offset;
     return transpose(layer->to_ply) *
-           (layer->Q * (layer->to_ply * (eps + (h * zeta + offset) * kappa)));
+           (layer->Q * (layer->to_ply * (eps + z * kappa) -
+                        free_expansion(layer->material, temperature, z)));
+  }
+
+  InitialForces
+  Laminate::thermal_forces(const Temperature &temperature,
+                           const double       h,
+                           const double       offset) const
+  {
+    InitialForces result;
+    const double  T = temperature.mean, dT = temperature.gradient;
+    for (const auto &layer : layers_)
+      {
+        const double z0 = h * layer.bottom + offset;
+        const double z1 = h * layer.top + offset;
+        // int z^k dz
+        const double  I0      = z1 - z0;
+        const double  I1      = 0.5 * (z1 * z1 - z0 * z0);
+        const double  I2      = (z1 * z1 * z1 - z0 * z0 * z0) / 3.;
+        const Voigt<> alpha   = free_expansion(layer.material, {1., 0.}, 0.);
+        const Voigt<> Q_alpha = layer.Q * alpha;
+        const Voigt<> stress  = transpose(layer.to_ply) * Q_alpha;
+        result.membrane_force += (T * I0 + dT * I1) * stress;
+        result.moment += (T * I1 + dT * I2) * stress;
+        result.membrane_energy +=
+          0.5 * (alpha * Q_alpha) *
+          (T * T * I0 + 2. * T * dT * I1 + dT * dT * I2);
+      }
+    return result;
   }
 } // namespace Nacre

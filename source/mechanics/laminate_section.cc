@@ -39,6 +39,8 @@ namespace Nacre
                                                     "nu12",
                                                     "G12",
                                                     "density",
+                                                    "alpha1",
+                                                    "alpha2",
                                                     "ply",
                                                     "Xt",
                                                     "Xc",
@@ -59,7 +61,8 @@ namespace Nacre
                       ExcMessage(what + " has no value; write '" + key +
                                  " = number'."));
           values[key] = evaluate_number(value, what, constants);
-          AssertThrow(key == "nu12" || values[key] > 0. ||
+          AssertThrow(key == "nu12" || key.substr(0, 5) == "alpha" ||
+                        values[key] > 0. ||
                         (key == "density" && values[key] == 0.),
                       ExcMessage(what + ": " + Text::number(values[key]) +
                                  (key == "density" ?
@@ -83,8 +86,12 @@ namespace Nacre
       material.E2   = values.at("E2");
       material.nu12 = values.at("nu12");
       material.G12  = values.at("G12");
-      if (values.count("density") == 1)
-        material.density = values.at("density");
+      for (const auto &[key, member] :
+           {std::make_pair("density", &OrthotropicMaterial::density),
+            std::make_pair("alpha1", &OrthotropicMaterial::alpha1),
+            std::make_pair("alpha2", &OrthotropicMaterial::alpha2)})
+        if (values.count(key) == 1)
+          material.*member = values.at(key);
       const double product =
         material.nu12 * material.nu12 * material.E2 / material.E1;
       AssertThrow(product < 1.,
@@ -113,16 +120,19 @@ namespace Nacre
   {
     texts_.offset    = "0";
     texts_.direction = "x";
-    add_parameter("Materials",
-                  materials_text_,
-                  "'name: key = value, key = value; name: ...'. Keys: E1 along "
-                  "the fibres, E2 across, G12 (units: force/length^2), nu12 "
-                  "(none), density (mass/length^3), ply, the thickness of a "
-                  "ply of this material (length), and for failure indices "
-                  "the strengths Xt, Xc along the fibres in tension and "
-                  "compression, Yt, Yc across, S in shear "
-                  "(force/length^2, all positive). Values are numbers or "
-                  "expressions of constants.");
+    add_parameter(
+      "Materials",
+      materials_text_,
+      "'name: key = value, key = value; name: ...'. Keys: E1 along "
+      "the fibres, E2 across, G12 (units: force/length^2), nu12 "
+      "(none), density (mass/length^3), alpha1, alpha2, the thermal "
+      "expansion along and across the fibres (1/temperature), "
+      "ply, the thickness of a "
+      "ply of this material (length), and for failure indices "
+      "the strengths Xt, Xc along the fibres in tension and "
+      "compression, Yt, Yc across, S in shear "
+      "(force/length^2, all positive). Values are numbers or "
+      "expressions of constants.");
     add_parameter(
       "Stack",
       texts_.stack,
@@ -502,29 +512,53 @@ namespace Nacre
                           const Voigt<>        &bending_strain,
                           const double          side,
                           const SurfaceFrame<> &frame,
-                          const SectionPoint   &point) const
+                          const SectionPoint   &point,
+                          const Temperature    &temperature) const
   {
     const Layup &here        = layup(point);
     const auto [T, top_side] = axes(here, frame, point);
-    return transpose(T) * here.laminate.stress(T * membrane_strain,
-                                               top_side * (T * bending_strain),
-                                               0.5 * top_side * side,
-                                               thickness(here, point),
-                                               here.offset);
+    return transpose(T) *
+           here.laminate.stress(T * membrane_strain,
+                                top_side * (T * bending_strain),
+                                0.5 * top_side * side,
+                                thickness(here, point),
+                                here.offset,
+                                {temperature.mean,
+                                 top_side * temperature.gradient});
+  }
+
+  InitialForces
+  LaminateSection::thermal_forces(const Temperature    &temperature,
+                                  const SurfaceFrame<> &frame,
+                                  const SectionPoint   &point) const
+  {
+    const Layup &here    = layup(point);
+    const auto [T, side] = axes(here, frame, point);
+    InitialForces result =
+      here.laminate.thermal_forces({temperature.mean,
+                                    side * temperature.gradient},
+                                   thickness(here, point),
+                                   here.offset);
+    result.membrane_force = transpose(T) * result.membrane_force;
+    result.moment         = side * (transpose(T) * result.moment);
+    return result;
   }
 
   std::vector<LayerState>
   LaminateSection::layers(const Voigt<>        &membrane_strain,
                           const Voigt<>        &bending_strain,
                           const SurfaceFrame<> &frame,
-                          const SectionPoint   &point) const
+                          const SectionPoint   &point,
+                          const Temperature    &temperature) const
   {
     const Layup &here    = layup(point);
     const auto [T, side] = axes(here, frame, point);
-    auto states          = here.laminate.states(T * membrane_strain,
-                                       side * (T * bending_strain),
-                                       thickness(here, point),
-                                       here.offset);
+    auto states =
+      here.laminate.states(T * membrane_strain,
+                           side * (T * bending_strain),
+                           thickness(here, point),
+                           here.offset,
+                           {temperature.mean, side * temperature.gradient});
     for (LayerState &state : states)
       for (double &height : state.height)
         height *= side;

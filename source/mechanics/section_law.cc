@@ -18,6 +18,25 @@ namespace Nacre
   }
 
   SectionResponse
+  SectionAt::response(const Voigt<>        &membrane_strain,
+                      const Voigt<>        &bending_strain,
+                      const SurfaceFrame<> &frame,
+                      const SectionPoint   &point) const
+  {
+    SectionResponse answer =
+      law.response(membrane_strain, bending_strain, frame, point);
+    if (!law.has_initial_strain())
+      return answer;
+    const InitialForces held = law.initial_forces(frame, point, instant);
+    answer.membrane_force -= held.membrane_force;
+    answer.moment -= held.moment;
+    answer.energy += held.membrane_energy + held.bending_energy -
+                     held.membrane_force * membrane_strain -
+                     held.moment * bending_strain;
+    return answer;
+  }
+
+  SectionResponse
   LinearSectionLaw::response(const Voigt<>        &membrane_strain,
                              const Voigt<>        &bending_strain,
                              const SurfaceFrame<> &frame,

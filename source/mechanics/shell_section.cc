@@ -26,6 +26,69 @@ namespace Nacre
                            "'Section/Laminate/Regions'."));
     choose();
     chosen_->prepare(constants);
+    Constants known = constants;
+    for (const auto &[name, value] : chosen_->named_constants())
+      known.emplace(name, value);
+    initial_strain_.prepare(known, chosen_ == &laminate_);
+  }
+
+  InitialForces
+  ShellSection::initial_forces(const SurfaceFrame<> &frame,
+                               const SectionPoint   &point,
+                               const Instant        &instant) const
+  {
+    const auto initial = initial_strain_.at(frame, point, instant);
+    const auto answer =
+      chosen_->response(initial.membrane, initial.bending, frame, point);
+    InitialForces result{answer.membrane_force, answer.moment};
+    result.membrane_energy = 0.5 * (result.membrane_force * initial.membrane);
+    result.bending_energy  = 0.5 * (result.moment * initial.bending);
+    if (chosen_ != &laminate_ || !initial_strain_.has_temperature())
+      return result;
+    const InitialForces thermal =
+      laminate_.thermal_forces(initial.temperature, frame, point);
+    result.membrane_energy += thermal.membrane_energy +
+                              thermal.membrane_force * initial.membrane +
+                              thermal.moment * initial.bending;
+    result.membrane_force += thermal.membrane_force;
+    result.moment += thermal.moment;
+    return result;
+  }
+
+  Voigt<>
+  ShellSection::stress_at(const Instant        &instant,
+                          const Voigt<>        &membrane_strain,
+                          const Voigt<>        &bending_strain,
+                          const double          side,
+                          const SurfaceFrame<> &frame,
+                          const SectionPoint   &point) const
+  {
+    if (!has_initial_strain())
+      return stress(membrane_strain, bending_strain, side, frame, point);
+    const auto initial = initial_strain_.at(frame, point, instant);
+    const auto eps     = membrane_strain - initial.membrane;
+    const auto rho     = bending_strain - initial.bending;
+    return chosen_ == &laminate_ ?
+             laminate_
+               .stress(eps, rho, side, frame, point, initial.temperature) :
+             chosen_->stress(eps, rho, side, frame, point);
+  }
+
+  std::vector<LayerState>
+  ShellSection::layers_at(const Instant        &instant,
+                          const Voigt<>        &membrane_strain,
+                          const Voigt<>        &bending_strain,
+                          const SurfaceFrame<> &frame,
+                          const SectionPoint   &point) const
+  {
+    if (!has_initial_strain() || chosen_ != &laminate_)
+      return layers(membrane_strain, bending_strain, frame, point);
+    const auto initial = initial_strain_.at(frame, point, instant);
+    return laminate_.layers(membrane_strain - initial.membrane,
+                            bending_strain - initial.bending,
+                            frame,
+                            point,
+                            initial.temperature);
   }
 
   void

@@ -3,6 +3,7 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/forms/finite_edge.h>
+#include <nacre/forms/foundation_term.h>
 #include <nacre/forms/rotation_jump.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
@@ -227,6 +228,12 @@ namespace Nacre
                                                     section.density(x) *
                                                       section.thickness(x),
                                                     instant_of(f));
+              if (const auto *const foundation = estimator_.parts_.foundation)
+                {
+                  cell->get_dof_values(*fields_[f].displacement, u_);
+                  vectors_[f] -=
+                    foundation_force(*foundation, cell_values_, q, u_);
+                }
               if (fields_[f].has_data && loads.pressure_follows())
                 {
                   const auto phi = deformed_frame_at(cell, cell_values_, q);

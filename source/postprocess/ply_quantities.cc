@@ -97,10 +97,10 @@ namespace Nacre
       StrainValues strains(shell, Quadrature<dim>(place.unit));
       strains.reinit(place.cell);
       value = value_of(quantity,
-                       shell.model.section.layers(strains.membrane(0),
-                                                  strains.bending(0),
-                                                  strains.values().frame(0),
-                                                  strains.values().point(0)));
+                       shell.section().layers(strains.membrane(0),
+                                              strains.bending(0),
+                                              strains.values().frame(0),
+                                              strains.values().point(0)));
     });
     return Utilities::MPI::sum(value, discretization.communicator());
   }

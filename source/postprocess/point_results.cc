@@ -70,13 +70,13 @@ namespace Nacre
   PointResults
   CellResults::at(const unsigned int q) const
   {
-    const SectionLaw &section = state_.model.section;
-    const auto       &frame   = strains_.values().frame(q);
-    const auto        point   = strains_.values().point(q);
-    const auto        eps     = strains_.membrane(q);
-    const auto        rho     = strains_.bending(q);
-    const auto        answer  = section.response(eps, rho, frame, point);
-    const auto        axes    = state_.model.result_axes.at(frame, point);
+    const SectionAt section = state_.section();
+    const auto     &frame   = strains_.values().frame(q);
+    const auto      point   = strains_.values().point(q);
+    const auto      eps     = strains_.membrane(q);
+    const auto      rho     = strains_.bending(q);
+    const auto      answer  = section.response(eps, rho, frame, point);
+    const auto      axes    = state_.model.result_axes.at(frame, point);
 
     PointResults r;
     r.point          = point;
@@ -122,10 +122,10 @@ namespace Nacre
     const auto  axes  = state_.model.result_axes.at(frame, point);
     return ShellStrain::resultant_tensor(
       frame,
-      state_.model.section.stress(strains_.membrane(q),
-                                  strains_.bending(q),
-                                  axes.side * side,
-                                  frame,
-                                  point));
+      state_.section().stress(strains_.membrane(q),
+                              strains_.bending(q),
+                              axes.side * side,
+                              frame,
+                              point));
   }
 } // namespace Nacre

@@ -204,6 +204,7 @@ namespace Nacre
         {"membrane energy", of_energies(&Energies::membrane), false},
         {"bending energy", of_energies(&Energies::bending), false},
         {"edge energy", of_energies(&Energies::edge), false},
+        {"foundation energy", of_energies(&Energies::foundation), false},
         {"kinetic energy", kinetic_energy, false},
         {"total energy", total_energy, false},
         {"external work", of_balance(&EnergyBalance::external_work), false},

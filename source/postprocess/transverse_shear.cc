@@ -186,10 +186,10 @@ namespace Nacre
     const unsigned int n       = sample_points_.size() - n_other;
     for (unsigned int q = 0; q < n; ++q)
       {
-        const auto answer = state_.model.section.response(strains_.membrane(q),
-                                                          strains_.bending(q),
-                                                          values.frame(q),
-                                                          values.point(q));
+        const auto answer = state_.section().response(strains_.membrane(q),
+                                                      strains_.bending(q),
+                                                      values.frame(q),
+                                                      values.point(q));
         samples.positions.push_back(values.point(q));
         samples.moments.emplace_back(symmetrize(
           ShellStrain::resultant_tensor(values.frame(q), answer.moment)));

@@ -271,13 +271,60 @@ namespace Nacre
         ancestor    = parent;
       }
     const unsigned int k = ancestor->index();
-    if (cell->reference_cell() == ReferenceCells::Triangle &&
-        !surface_->has_triangles())
-      return surface_->position(k / 2,
-                                to_quadrilateral(diagonals_[k / 2],
-                                                 k % 2,
-                                                 coarse_unit));
-    return surface_->position(k, coarse_unit);
+    const bool is_half   = cell->reference_cell() == ReferenceCells::Triangle &&
+                         !surface_->has_triangles();
+    const Point<spacedim> x = perfect_position(k, is_half, coarse_unit);
+    if (imperfection_ == nullptr)
+      return x;
+    return x + (*imperfection_)(x, perfect_normal(k, is_half, coarse_unit));
+  }
+
+
+  void
+  Midsurface::set_imperfection(std::unique_ptr<const Imperfection> imperfection)
+  {
+    imperfection_ = std::move(imperfection);
+  }
+
+
+  Point<spacedim>
+  Midsurface::perfect_position(const unsigned int cell,
+                               const bool         is_half,
+                               const Point<dim>  &unit) const
+  {
+    if (is_half)
+      return surface_->position(cell / 2,
+                                to_quadrilateral(diagonals_[cell / 2],
+                                                 cell % 2,
+                                                 unit));
+    return surface_->position(cell, unit);
+  }
+
+
+  Tensor<1, spacedim>
+  Midsurface::perfect_normal(const unsigned int cell,
+                             const bool         is_half,
+                             const Point<dim>  &unit) const
+  {
+    // Differences of the fourth order, into the cell: maps needn't go on
+    // beyond their edges. Error and round-off are both about 1e-12.
+    const double                         step = 1e-3;
+    std::array<Tensor<1, spacedim>, dim> a;
+    const double weights[5] = {-25. / 12., 4., -3., 4. / 3., -1. / 4.};
+    const double middle = surface_->has_triangles() || is_half ? 1. / 3. : 0.5;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double sign = unit[d] <= middle ? 1. : -1.;
+        for (unsigned int i = 0; i < 5; ++i)
+          {
+            Point<dim> place = unit;
+            place[d] += sign * i * step;
+            a[d] += sign * weights[i] *
+                    Tensor<1, spacedim>(perfect_position(cell, is_half, place));
+          }
+      }
+    const auto normal = cross_product_3d(a[0], a[1]);
+    return normal / normal.norm();
   }
 
 

@@ -120,6 +120,8 @@ namespace Nacre
                             kinds[found - names.begin()].make(input),
                             input.where()),
                           name);
+    midsurface.set_imperfection(
+      imperfection_.make(constants, communicator_, folder_));
     if (is_file)
       {
         fix_file_name();

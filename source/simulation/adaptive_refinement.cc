@@ -97,6 +97,10 @@ namespace Nacre
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
     check_path(problem.path);
+    AssertThrow(!problem.model.section.has_initial_strain(),
+                ExcMessage(section +
+                           "Cycles: the estimate knows no initial strains; set "
+                           "it to 0, and refine the whole mesh."));
     AssertThrow(problem.model.element.type != ElementType::triangle,
                 ExcMessage(section + "Cycles: meshes of triangles are refined "
                                      "as a whole only; set it to 0, or choose "

@@ -56,7 +56,11 @@ namespace Nacre
                                Log                  &log)
     : problem_(problem)
     , discretization_(discretize(communicator, problem, std::move(mesh)))
-    , conditions_(discretization_, problem.model.supports)
+    , conditions_(discretization_,
+                  problem.model.supports,
+                  Instant(),
+                  nullptr,
+                  &problem.model.foundation)
     , assembly_(discretization_, problem.model)
   {
     // Inertia holds a shell as well.

@@ -25,7 +25,10 @@ namespace Nacre
     , displacement_(solve(log))
     , dual_(goal != nullptr ? solve_dual(*goal) : Vector())
     , residual_(shell.owned_vector())
-    , solved_{{shell.discretization(), shell.problem().model, displacement_},
+    , solved_{{shell.discretization(),
+               shell.problem().model,
+               displacement_,
+               Instant()},
               shell.assembly(),
               actions_,
               shell.conditions(),

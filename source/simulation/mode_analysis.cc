@@ -4,6 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
+#include <nacre/postprocess/node_values.h>
 #include <nacre/simulation/mode_analysis.h>
 
 #include <cmath>
@@ -101,7 +102,7 @@ namespace Nacre
       shell.assembly().actions(problem_.model.at(1.));
     Vector            residual = shell.owned_vector();
     const SolvedShell solved{
-      {shell.discretization(), problem_.model, modes.state},
+      {shell.discretization(), problem_.model, modes.state, actions.loads},
       shell.assembly(),
       actions,
       shell.conditions(),
@@ -187,6 +188,9 @@ namespace Nacre
                      options.folder,
                      options.name,
                      {number, double(number), "mode" + std::to_string(number)});
+        write_node_values({shell.discretization(), problem_.model, mode},
+                          options.file("_mode" + std::to_string(number) +
+                                       ".csv"));
       }
     recorder.add_summary(
       "Modes: " + options.file("_modeNUMBER") +

@@ -83,7 +83,10 @@ namespace Nacre
       : displacement_(ghosted(state.time, state.motion.u, system))
       , velocity_(system.with_ghosts(state.motion.v))
       , residual_(shell.owned_vector())
-      , shell_{{shell.discretization(), shell.problem().model, displacement_},
+      , shell_{{shell.discretization(),
+                shell.problem().model,
+                displacement_,
+                system.actions().loads},
                shell.assembly(),
                system.actions(),
                shell.conditions(),

@@ -171,6 +171,7 @@ namespace Nacre
     model.kinematics     = discretization_.kinematics();
     model.eta            = shell_case.eta;
     model.result_axes    = result_axes_.make(constants);
+    model.foundation     = foundation_.make(constants);
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);
@@ -252,6 +253,22 @@ namespace Nacre
                 ExcMessage(
                   "Discretization/Assembly: 'reference' knows linear "
                   "analyses in the rotation-jump form only; choose 'fast'."));
+    AssertThrow((!problem.path.is_linear() &&
+                 !seeks_modes(problem.path.type)) ||
+                  !problem.model.foundation.is_nonlinear(),
+                ExcMessage("Foundation/Tension free: '" +
+                           name_of(problem.model.foundation.tension_free) +
+                           "' is nonlinear, and 'Analysis/Type = " +
+                           name_of(problem.path.type) +
+                           "' is linear; choose 'Analysis/Type = static' or "
+                           "'Tension free = no'."));
+    AssertThrow(!problem.model.section.has_initial_strain() ||
+                  (problem.assembly == AssemblyMethod::fast &&
+                   !problem.path.is_dynamic()),
+                ExcMessage("Section/Initial strain: neither 'Discretization/"
+                           "Assembly = reference' nor 'Analysis/Type = "
+                           "dynamic' knows it; choose 'fast', and a static "
+                           "analysis."));
     if (!problem.path.is_linear())
       return;
     AssertThrow(linear_kinematics,

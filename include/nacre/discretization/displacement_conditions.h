@@ -14,6 +14,9 @@
 
 namespace Nacre
 {
+  struct Foundation;
+  class RigidMotions;
+
   /**
    * Prescribed displacements as constraints of nodes: every node collects the
    * components that its edges and point supports prescribe; components that
@@ -30,11 +33,13 @@ namespace Nacre
      * @param instant of the prescribed displacements
      * @param finest conditions on a finer mesh of the surface, from which the
      *   planes of symmetry are taken
+     * @param foundation that holds rigid motions, too; null: none
      */
     DisplacementConditions(const Discretization         &discretization,
                            const BoundaryConditions     &boundary_conditions,
-                           const Instant                &instant = Instant(),
-                           const DisplacementConditions *finest  = nullptr);
+                           const Instant                &instant    = Instant(),
+                           const DisplacementConditions *finest     = nullptr,
+                           const Foundation             *foundation = nullptr);
 
     /** Hanging nodes and prescribed displacements on the relevant dofs. */
     const AffineConstraints<double> &
@@ -74,7 +79,8 @@ namespace Nacre
 
     /**
      * The rigid motions that neither a displacement nor a rotation condition
-     * prevents, in words; empty if the shell is held.
+     * nor the foundation prevents, in words; empty if the shell is held.
+     * Collective.
      */
     std::vector<std::string>
     free_rigid_motions() const;
@@ -91,6 +97,10 @@ namespace Nacre
               const Tensor<1, spacedim> &force) const;
 
   private:
+    /** What the foundation holds of this rank's cells. */
+    void
+    hold_by_foundation(RigidMotions &motions) const;
+
     using Vector3 = Tensor<1, spacedim>;
 
     /** A node on a boundary edge, as one of its cells sees it. */
@@ -185,6 +195,7 @@ namespace Nacre
     const Discretization     &discretization_;
     const BoundaryConditions &boundary_conditions_;
     const Instant             instant_;
+    const Foundation *const   foundation_;
     /** Dofs whose constraints this rank knows. */
     IndexSet                  local_lines_;
     IndexSet                  relevant_dofs_;

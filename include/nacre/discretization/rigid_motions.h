@@ -34,6 +34,10 @@ namespace Nacre
     void
     hold_rotation(const Vector3 &axis);
 
+    /** Hold what @p motions of any rank hold, too. Collective. */
+    void
+    add_of_all_ranks(const RigidMotions &motions, const MPI_Comm communicator);
+
     /**
      * The motions that nothing holds, in words: "translation along (1, 0, 0)",
      * "rotation about (0, 0, 1) through (5, 0, 0)"; as many pure translations

@@ -122,6 +122,13 @@ namespace Nacre
           }
     }
 
+    /** E and kappa at the point @p q, Voigt. */
+    std::pair<Voigt<Number>, Voigt<Number>>
+    strains(const unsigned int q) const
+    {
+      return {membrane_strains_[q], bending_strains_[q]};
+    }
+
     /** E at the tying points, and the forces that do work on it. */
     const TiedGreenStrain<Number> &
     membrane() const

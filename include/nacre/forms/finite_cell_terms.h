@@ -39,6 +39,13 @@ namespace Nacre
       return full_points_.values;
     }
 
+    /** Of initial strains. */
+    void
+    set_instant(const Instant &instant)
+    {
+      instant_ = instant;
+    }
+
     /** Frames of @p cell, without any terms. */
     void
     reinit_frames(const Triangulation<dim, spacedim>::cell_iterator &cell)
@@ -110,6 +117,7 @@ namespace Nacre
     add_membrane_force_stiffness(const CellPoints &points, LocalTerms &terms);
 
     const SectionLaw &section_;
+    Instant           instant_;
     CellPoints        full_points_;
     /** p x p points, for reduced integration only. */
     std::optional<CellPoints> reduced_points_;

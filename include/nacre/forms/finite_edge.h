@@ -97,6 +97,13 @@ namespace Nacre
       Vector Y;
     };
 
+    /** Of initial strains. */
+    void
+    set_instant(const Instant &instant)
+    {
+      instant_ = instant;
+    }
+
     /**
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
@@ -362,6 +369,8 @@ namespace Nacre
           side.Y += side.rows[2][a] * u[a];
         }
       deform(side, frame, displacement_gradient(shapes, q, u), sigma);
+      if (section.has_initial_strain())
+        side.moment -= initial_moment(edge, s, q, section, instant_);
       const std::array<Number, 2> nu_con = {
         {side.conormal * side.deformed.a_con[0],
          side.conormal * side.deformed.a_con[1]}};
@@ -513,7 +522,8 @@ namespace Nacre
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
     EdgeFluxes          fluxes_;
-    double              stiffness_     = 0.;
+    double              stiffness_ = 0.;
+    Instant             instant_;
     Number              jump_          = 0.;
     Number              mean_          = 0.;
     double              initial_angle_ = 0.;

@@ -30,6 +30,15 @@ namespace Nacre
     /** @param limits_gap of FiniteEdgePoint::hessian() */
     FiniteEdgeTerms(const SectionLaw &section, const bool limits_gap);
 
+    /** Of initial strains. */
+    void
+    set_instant(const Instant &instant)
+    {
+      point_.set_instant(instant);
+      for (auto &point : ends_point_)
+        point.set_instant(instant);
+    }
+
     /**
      * Add the terms at the displacement @p u of the edge's dofs; zero if empty.
      * @param rotation not used for interior edges

@@ -37,6 +37,13 @@ namespace Nacre
     }
 
     void
+    set_instant(const Instant &instant) override
+    {
+      cell_terms_.set_instant(instant);
+      edge_terms_.set_instant(instant);
+    }
+
+    void
     add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
                    const Vector<double>                              &u,
                    LocalTerms &terms) override

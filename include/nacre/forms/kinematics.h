@@ -17,18 +17,20 @@
 
 namespace Nacre
 {
-  /** Parts of the strain energy (force times length). */
+  /** Parts of the stored energy (force times length). */
   struct Energies
   {
     double membrane = 0.;
     double bending  = 0.;
     /** Penalty and consistency terms of interior and boundary edges. */
     double edge = 0.;
+    /** Of an elastic foundation. */
+    double foundation = 0.;
 
     double
     total() const
     {
-      return membrane + bending + edge;
+      return membrane + bending + edge + foundation;
     }
 
     Energies &
@@ -77,6 +79,11 @@ namespace Nacre
   {
   public:
     virtual ~Kinematics() = default;
+
+    /** Take the section's initial strains at @p instant from now on. */
+    virtual void
+    set_instant(const Instant & /*instant*/)
+    {}
 
     /** A copy with scratch data of its own. */
     virtual std::unique_ptr<Kinematics>

@@ -32,6 +32,12 @@ namespace Nacre
     clone() const override;
 
     void
+    set_instant(const Instant &instant) override
+    {
+      instant_ = instant;
+    }
+
+    void
     add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
                    const Vector<double>                              &u,
                    LocalTerms &terms) override;
@@ -94,6 +100,16 @@ namespace Nacre
                        const Vector<double>  &u,
                        LocalTerms            &terms);
 
+    /**
+     * -int n0 : eps(v) + m0 : rho(v) dA of the section's initial strains.
+     * @param shares of these points in both energies
+     */
+    void
+    add_initial_terms(const ShellCellValues       &values,
+                      const std::array<double, 2> &shares,
+                      const Vector<double>        &u,
+                      LocalTerms                  &terms) const;
+
     /** Rows whose product is the tangent of the point of jump_. */
     void
     fill_edge_rows(const unsigned int q, const EdgeFluxes &fluxes);
@@ -101,6 +117,7 @@ namespace Nacre
     void
     add_edge_residual(const EdgeFluxes     &fluxes,
                       const double          rotation,
+                      const double          initial_moment,
                       const Vector<double> &u,
                       LocalTerms           &terms) const;
 
@@ -113,6 +130,7 @@ namespace Nacre
     RotationJump       jump_;
     FullMatrix<double> test_rows_;
     FullMatrix<double> trial_rows_;
+    Instant            instant_;
   };
 } // namespace Nacre
 

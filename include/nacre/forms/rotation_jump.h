@@ -61,6 +61,24 @@ namespace Nacre
   };
 
   /**
+   * m_nn (force), sigma included, that the section's initial strains take to be
+   * held at the point @p q of the @p side of @p edge.
+   */
+  double
+  initial_moment(const ShellEdgeValues &edge,
+                 const unsigned int     side,
+                 const unsigned int     q,
+                 const SectionLaw      &section,
+                 const Instant         &instant);
+
+  /** The mean of both sides; on the boundary that of the one side. */
+  double
+  mean_initial_moment(const ShellEdgeValues &edge,
+                      const unsigned int     q,
+                      const SectionLaw      &section,
+                      const Instant         &instant);
+
+  /**
    * Factors of the three terms at an edge point, quadrature weight included:
    * penalty [[theta(u)]] [[theta(v)]] + symmetry {m_nn(v)} [[theta(u)]] +
    * consistency [[theta(v)]] {m_nn(u)}.

@@ -35,7 +35,10 @@ namespace Nacre
     Voigt<Number>
     force(const Voigt<Number> &membrane, const Voigt<Number> &bending) const
     {
-      return is_coupled ? A * membrane + B * bending : A * membrane;
+      Voigt<Number> n = A * membrane;
+      if (is_coupled)
+        n += B * bending;
+      return subtract(n, initial.membrane_force);
     }
 
     /** m from E and kappa. */
@@ -43,12 +46,36 @@ namespace Nacre
     Voigt<Number>
     moment(const Voigt<Number> &membrane, const Voigt<Number> &bending) const
     {
-      return is_coupled ? transpose(B) * membrane + D * bending : D * bending;
+      Voigt<Number> m = D * bending;
+      if (is_coupled)
+        m += transpose(B) * membrane;
+      return subtract(m, initial.moment);
     }
 
     VoigtMatrix<> A, B, D;
     /** Whether B isn't zero. */
     bool is_coupled = false;
+    /** Of initial strains, with the factors of the blocks: zero at first. */
+    InitialForces initial;
+
+    /** What they add to 1/2 E : n and to 1/2 kappa : m. */
+    std::array<double, 2>
+    initial_energies(const Voigt<> &membrane, const Voigt<> &bending) const
+    {
+      return {
+        {initial.membrane_energy - 0.5 * (initial.membrane_force * membrane),
+         initial.bending_energy - 0.5 * (initial.moment * bending)}};
+    }
+
+  private:
+    template <typename Number>
+    static Voigt<Number>
+    subtract(Voigt<Number> a, const Voigt<> &b)
+    {
+      for (unsigned int v = 0; v < 3; ++v)
+        a[v] -= b[v];
+      return a;
+    }
   };
 } // namespace Nacre
 

@@ -13,6 +13,7 @@ namespace Nacre
   class BoundaryConditions;
   class Expression;
   class Loads;
+  struct Foundation;
   struct ShellModel;
 
   /**
@@ -41,6 +42,8 @@ namespace Nacre
      * null: they don't.
      */
     const Expression *load_factor = nullptr;
+    /** Null: none. */
+    const Foundation *foundation = nullptr;
   };
 
   enum class TermSelection

@@ -50,11 +50,15 @@ namespace Nacre
         const AffineConstraints<double> &constraints,
         Matrix                          &matrix) const;
 
-    /** The same of the forces A eps(u) + B rho(u) of the ghosted @p u. */
+    /**
+     * The same of the forces A eps(u) + B rho(u) of the ghosted @p u, less
+     * those of the section's initial strains at @p instant.
+     */
     void
     add(const Vector                    &u,
         const AffineConstraints<double> &constraints,
-        Matrix                          &matrix) const;
+        Matrix                          &matrix,
+        const Instant                   &instant = {0., 0.}) const;
 
   private:
     using Cell = DoFHandler<dim, spacedim>::active_cell_iterator;

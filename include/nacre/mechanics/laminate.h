@@ -65,23 +65,37 @@ namespace Nacre
     /**
      * Strains and stresses of all layers, for the strains @p eps and @p kappa
      * (1/length) of the reference surface in the axes 1, 2; heights along 3.
+     * Strains are those that stress takes, without the free expansion.
      */
     std::vector<LayerState>
-    states(const Voigt<> &eps,
-           const Voigt<> &kappa,
-           const double   h,
-           const double   offset) const;
+    states(const Voigt<>     &eps,
+           const Voigt<>     &kappa,
+           const double       h,
+           const double       offset,
+           const Temperature &temperature = {}) const;
+
+    /**
+     * What the free expansion of all layers by the @p temperature, whose
+     * gradient is along 3, takes to be held, in the axes 1, 2:
+     *   n0 = int Qbar alpha T dz,   m0 = int z Qbar alpha T dz,
+     * and the energy 1/2 int alpha Qbar alpha T^2 dz, as a membrane energy.
+     */
+    InitialForces
+    thermal_forces(const Temperature &temperature,
+                   const double       h,
+                   const double       offset) const;
 
     /**
      * The stress in the axes 1, 2 at the height @p zeta h above the middle,
      * -1/2 <= zeta <= 1/2; between two layers that of the upper one.
      */
     Voigt<>
-    stress(const Voigt<> &eps,
-           const Voigt<> &kappa,
-           const double   zeta,
-           const double   h,
-           const double   offset) const;
+    stress(const Voigt<>     &eps,
+           const Voigt<>     &kappa,
+           const double       zeta,
+           const double       h,
+           const double       offset,
+           const Temperature &temperature = {}) const;
 
   private:
     struct PlacedLayer

@@ -70,13 +70,52 @@ namespace Nacre
            const Voigt<>        &bending_strain,
            const double          side,
            const SurfaceFrame<> &frame,
-           const SectionPoint   &point) const override;
+           const SectionPoint   &point) const override
+    {
+      return stress(membrane_strain,
+                    bending_strain,
+                    side,
+                    frame,
+                    point,
+                    Temperature());
+    }
 
     std::vector<LayerState>
     layers(const Voigt<>        &membrane_strain,
            const Voigt<>        &bending_strain,
            const SurfaceFrame<> &frame,
-           const SectionPoint   &point) const override;
+           const SectionPoint   &point) const override
+    {
+      return layers(membrane_strain,
+                    bending_strain,
+                    frame,
+                    point,
+                    Temperature());
+    }
+
+    /** @name The same with plies that are warmer by the @p temperature */
+    //@{
+    Voigt<>
+    stress(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const double          side,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point,
+           const Temperature    &temperature) const;
+
+    std::vector<LayerState>
+    layers(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point,
+           const Temperature    &temperature) const;
+    //@}
+
+    /** Laminate::thermal_forces() in the covariant basis. */
+    InitialForces
+    thermal_forces(const Temperature    &temperature,
+                   const SurfaceFrame<> &frame,
+                   const SectionPoint   &point) const;
 
     unsigned int
     n_layers() const override;

@@ -34,7 +34,9 @@ namespace Nacre
     /** Contraction along 2 by stress along 1; nu21 = nu12 E2/E1. */
     double nu12 = 0.;
     /** Mass/length^3. */
-    double                   density = 0.;
+    double density = 0.;
+    /** Thermal expansion along and across the fibres (1/temperature). */
+    double                   alpha1 = 0., alpha2 = 0.;
     std::optional<Strengths> strengths;
 
     /**

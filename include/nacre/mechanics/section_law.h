@@ -4,6 +4,7 @@
 #ifndef nacre_mechanics_section_law_h
 #define nacre_mechanics_section_law_h
 
+#include <nacre/base/instant.h>
 #include <nacre/base/mesh_region.h>
 #include <nacre/mechanics/surface_frame.h>
 
@@ -65,6 +66,30 @@ namespace Nacre
     SectionStiffness tangent;
     /** w per area of the undeformed surface (force/length). */
     double energy = 0.;
+  };
+
+  /**
+   * What stands against initial strains that are held: the resultants of the
+   * strains E, kappa are those of response() less these, and the energy is that
+   * of response() less E : n0 + kappa : m0, plus these energies.
+   */
+  struct InitialForces
+  {
+    /** n0^ab and m0^ab, as SectionResponse. */
+    Voigt<> membrane_force;
+    Voigt<> moment;
+    /** Per area (force/length). */
+    double membrane_energy = 0.;
+    double bending_energy  = 0.;
+  };
+
+  /** How much warmer a section is than without stress. */
+  struct Temperature
+  {
+    /** At the reference surface (temperature). */
+    double mean = 0.;
+    /** Along t0 (temperature/length). */
+    double gradient = 0.;
   };
 
   /**
@@ -192,11 +217,95 @@ namespace Nacre
       return {};
     }
 
+    /**
+     * @name Initial strains, as of a temperature: none by default
+     *
+     * The functions above know nothing of them; SectionAt does.
+     */
+    //@{
+    virtual bool
+    has_initial_strain() const
+    {
+      return false;
+    }
+
+    virtual InitialForces
+    initial_forces(const SurfaceFrame<> & /*frame*/,
+                   const SectionPoint & /*point*/,
+                   const Instant & /*instant*/) const
+    {
+      return {};
+    }
+
+    /** stress() and layers() with the initial strains of @p instant. */
+    virtual Voigt<>
+    stress_at(const Instant & /*instant*/,
+              const Voigt<>        &membrane_strain,
+              const Voigt<>        &bending_strain,
+              const double          side,
+              const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const
+    {
+      return stress(membrane_strain, bending_strain, side, frame, point);
+    }
+
+    virtual std::vector<LayerState>
+    layers_at(const Instant & /*instant*/,
+              const Voigt<>        &membrane_strain,
+              const Voigt<>        &bending_strain,
+              const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const
+    {
+      return layers(membrane_strain, bending_strain, frame, point);
+    }
+    //@}
+
     /** The largest number of layers at any point. */
     virtual unsigned int
     n_layers() const
     {
       return 0;
+    }
+  };
+
+  /** A section at an instant: what it answers with its initial strains. */
+  struct SectionAt
+  {
+    const SectionLaw &law;
+    Instant           instant;
+
+    SectionResponse
+    response(const Voigt<>        &membrane_strain,
+             const Voigt<>        &bending_strain,
+             const SurfaceFrame<> &frame,
+             const SectionPoint   &point) const;
+
+    Voigt<>
+    stress(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const double          side,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point) const
+    {
+      return law.stress_at(instant,
+                           membrane_strain,
+                           bending_strain,
+                           side,
+                           frame,
+                           point);
+    }
+
+    std::vector<LayerState>
+    layers(const Voigt<>        &membrane_strain,
+           const Voigt<>        &bending_strain,
+           const SurfaceFrame<> &frame,
+           const SectionPoint   &point) const
+    {
+      return law.layers_at(instant,
+                           membrane_strain,
+                           bending_strain,
+                           frame,
+                           point);
     }
   };
 

@@ -4,6 +4,7 @@
 #ifndef nacre_mechanics_shell_section_h
 #define nacre_mechanics_shell_section_h
 
+#include <nacre/mechanics/initial_strain.h>
 #include <nacre/mechanics/laminate_section.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 
@@ -37,6 +38,7 @@ namespace Nacre
     set_regions(const MeshRegions &mesh) override
     {
       chosen_->set_regions(mesh);
+      initial_strain_.set_regions(mesh);
     }
 
     double
@@ -108,6 +110,32 @@ namespace Nacre
       return chosen_->n_layers();
     }
 
+    bool
+    has_initial_strain() const override
+    {
+      return !initial_strain_.is_zero();
+    }
+
+    InitialForces
+    initial_forces(const SurfaceFrame<> &frame,
+                   const SectionPoint   &point,
+                   const Instant        &instant) const override;
+
+    Voigt<>
+    stress_at(const Instant        &instant,
+              const Voigt<>        &membrane_strain,
+              const Voigt<>        &bending_strain,
+              const double          side,
+              const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const override;
+
+    std::vector<LayerState>
+    layers_at(const Instant        &instant,
+              const Voigt<>        &membrane_strain,
+              const Voigt<>        &bending_strain,
+              const SurfaceFrame<> &frame,
+              const SectionPoint   &point) const override;
+
   private:
     /** Set chosen_ from the parameter, which may have changed. */
     void
@@ -117,6 +145,8 @@ namespace Nacre
     LinearElasticSection isotropic_;
     LaminateSection      laminate_;
     SectionLaw          *chosen_ = &isotropic_;
+
+    InitialStrainParameters initial_strain_;
   };
 } // namespace Nacre
 

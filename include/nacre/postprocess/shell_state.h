@@ -26,6 +26,15 @@ namespace Nacre
     const ShellModel     &model;
     /** Ghosted displacement (length). */
     const TrilinosWrappers::MPI::Vector &displacement;
+    /** Of the section's initial strains; of modes: none. */
+    Instant instant = {0., 0.};
+
+    /** The section as stresses see it. */
+    SectionAt
+    section() const
+    {
+      return {model.section, instant};
+    }
   };
 
   /** The same with its forces and its motion, as quantities see it. */

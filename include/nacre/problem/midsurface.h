@@ -6,6 +6,7 @@
 
 #include <nacre/base/mesh_region.h>
 #include <nacre/base/types.h>
+#include <nacre/problem/imperfection.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
@@ -69,8 +70,15 @@ namespace Nacre
                          const unsigned int   n_refinements) const;
 
     /**
+     * Move the surface by an @p imperfection, null: none. Its new shape is
+     * without stress.
+     */
+    void
+    set_imperfection(std::unique_ptr<const Imperfection> imperfection);
+
+    /**
      * phi0 (length) at the point @p unit of the reference cell of @p cell, on
-     * the exact surface.
+     * the exact surface, with its imperfection.
      */
     Point<spacedim>
     position(const Triangulation<dim, spacedim>::cell_iterator &cell,
@@ -117,6 +125,18 @@ namespace Nacre
     has_triangles() const;
 
   private:
+    /** Without the imperfection, in the coarse cell number @p cell. */
+    Point<spacedim>
+    perfect_position(const unsigned int cell,
+                     const bool         is_half,
+                     const Point<dim>  &unit) const;
+
+    /** Its unit normal there. */
+    Tensor<1, spacedim>
+    perfect_normal(const unsigned int cell,
+                   const bool         is_half,
+                   const Point<dim>  &unit) const;
+
     /** Whether the edge number @p edge of the surface has the @p name. */
     bool
     has_name(const unsigned int edge, const std::string &name) const;
@@ -136,6 +156,8 @@ namespace Nacre
     /** Not null. */
     std::unique_ptr<const ParametricSurface> surface_;
     std::string                              name_;
+    /** Null: none. */
+    std::unique_ptr<const Imperfection> imperfection_;
     /** How each coarse quadrilateral is cut for triangles. */
     std::vector<unsigned int> diagonals_;
     std::vector<std::string>  edge_names_;
@@ -181,6 +203,8 @@ namespace Nacre
 
     MPI_Comm    communicator_ = MPI_COMM_SELF;
     std::string folder_;
+
+    ImperfectionParameters imperfection_;
     /** With what the last surface of a file was built. */
     std::optional<Constants> constants_of_file_;
   };

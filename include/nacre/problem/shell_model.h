@@ -8,6 +8,7 @@
 #include <nacre/problem/boundary_conditions.h>
 #include <nacre/problem/element.h>
 #include <nacre/problem/exact_solution.h>
+#include <nacre/problem/foundation.h>
 #include <nacre/problem/kinematics_options.h>
 #include <nacre/problem/loads.h>
 #include <nacre/problem/midsurface.h>
@@ -51,6 +52,8 @@ namespace Nacre
 
     /** The axes of stresses, forces and moments in the results. */
     SurfaceAxes result_axes = {};
+
+    Foundation foundation = {};
 
     /** @p time with the factor of loads and prescribed values there. */
     Instant

@@ -147,6 +147,7 @@ namespace Nacre
     LinearSolverParameters      solver_;
     DiscretizationParameters    discretization_;
     ResultAxesParameters        result_axes_;
+    FoundationParameters        foundation_;
   };
 } // namespace Nacre
 
