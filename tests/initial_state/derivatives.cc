@@ -4,7 +4,7 @@
 // Initial strains of a laminate that couples everything, and a foundation that
 // doesn't pull: the forces are the gradient of the energy and the tangent is
 // their derivative, by differences, on a mesh with hanging nodes and a cell of
-// the other orientation.
+// the other orientation. A plate that takes its initial strains has no forces.
 
 #include "../laminates/laminate_mesh.h"
 #include <nacre/mechanics/shell_section.h>
@@ -12,43 +12,48 @@
 
 using namespace Tests;
 
+/** A laminate with initial strains, on a foundation. */
+std::string
+grown_text(const std::string &alphas, const std::string &others)
+{
+  return "subsection Section\n set Type = laminate\n subsection Laminate\n"
+         "  set Materials = ply: E1 = 25, E2 = 1, nu12 = 0.25, G12 = 0.5, " +
+         alphas +
+         "\n  set Stack = [0/90/30]\n  set Thickness = 0.3\n"
+         "  set Material direction = 1, 0.3, 0.2\n"
+         "  set Top = 0.1, 0.2, 1\n end\n subsection Initial strain\n"
+         "  set Temperature gradient = 5\n" +
+         others;
+}
+
+const std::string strange =
+  grown_text("alpha1 = -1e-3, alpha2 = 2e-2",
+             "  set Strain = 0.01*x, -0.02, 0.03*y\n"
+             "  set Curvature = 0.3, 0.2*x, -0.1\n"
+             "  set Direction = 1, 0.5, 0\n  set Temperature = 2 + x\n"
+             " end\nend\nsubsection Foundation\n"
+             " set Normal stiffness = 1 + x^2\n"
+             " set Tangential stiffness = 0.7\n set Tension free = above\n"
+             "end\n");
+
+const std::string uniform =
+  grown_text("alpha1 = 1e-2, alpha2 = 1e-2",
+             "  set Strain = 0.01, -0.02, 0.03\n"
+             "  set Curvature = 0.3, 0.2, -0.1\n  set Temperature = 2\n"
+             " end\nend\n");
+
 struct GrownShell : NoParameters
 {
-  explicit GrownShell(const KinematicsModel model)
+  GrownShell(const std::string    &text,
+             const Mesh           &mesh,
+             const KinematicsModel model)
+    : discretization(make_discretization(mesh, lagrange(2)))
   {
     ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(R"(
-subsection Section
-  set Type = laminate
-  subsection Laminate
-    set Materials = ply: E1 = 25, E2 = 1, nu12 = 0.25, G12 = 0.5, \
-                    alpha1 = -1e-3, alpha2 = 2e-2
-    set Stack              = [0/90/30]
-    set Thickness          = 0.3
-    set Material direction = 1, 0.3, 0.2
-    set Top                = 0.1, 0.2, 1
-  end
-  subsection Initial strain
-    set Strain               = 0.01*x, -0.02, 0.03*y
-    set Curvature            = 0.3, 0.2*x, -0.1
-    set Direction            = 1, 0.5, 0
-    set Temperature          = 2 + x
-    set Temperature gradient = 5
-  end
-end
-subsection Foundation
-  set Normal stiffness     = 1 + x^2
-  set Tangential stiffness = 0.7
-  set Tension free         = above
-end
-)");
+    ParameterAcceptor::prm.parse_input_from_string(text);
     ParameterAcceptor::parse_all_parameters();
     section.prepare({});
-    springs      = foundation.make({});
-    auto mesh    = make_mesh(bend);
-    mesh.refined = {1, 5};
-    std::swap(mesh.cells[2][1], mesh.cells[2][2]);
-    discretization = make_discretization(mesh, lagrange(2));
+    springs = foundation.make({});
     ShellParts parts(section,
                      conditions,
                      loads,
@@ -72,12 +77,42 @@ end
   AffineConstraints<double>       none;
 };
 
+/** w = -(kappa0 : x x)/2 and the strains E0 leave no force and no energy. */
+void
+test_free_growth()
+{
+  const GrownShell shell(uniform,
+                         make_mesh([](const Point<3> &x) {
+                           return Point<3>(x[0], x[1] + 0.2 * x[0], 0.);
+                         }),
+                         KinematicsModel::linear);
+  const auto     u = interpolate(*shell.discretization, [](const Point<3> &x) {
+    return Vector3(
+      {0.03 * x[0] + 0.03 * x[1],
+       0.03 * x[0],
+       -0.5 * (0.35 * x[0] * x[0] + 0.25 * x[1] * x[1]) + 0.1 * x[0] * x[1]});
+  });
+  TrilinosVector force(u), held(u), zero(u);
+  zero = 0.;
+  shell.assembly->residual(zero, held);
+  const double energy = shell.assembly->residual(u, force).total();
+  check_below("free growth: force",
+              force.linfty_norm() / held.linfty_norm(),
+              1e-12);
+  check_below("free growth: energy",
+              std::abs(energy) / shell.assembly->energies(zero).total(),
+              1e-12);
+}
+
 void
 test(const KinematicsModel model)
 {
   const std::string name =
     model == KinematicsModel::finite ? "finite: " : "linear: ";
-  const GrownShell shell(model);
+  auto mesh    = make_mesh(bend);
+  mesh.refined = {1, 5};
+  std::swap(mesh.cells[2][1], mesh.cells[2][2]);
+  const GrownShell shell(strange, mesh, model);
   TrilinosVector   u = interpolate(*shell.discretization, some_field);
   u *= 0.4;
   const auto    &hanging = shell.discretization->hanging_node_constraints();
@@ -142,6 +177,7 @@ int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_free_growth();
   test(KinematicsModel::linear);
   test(KinematicsModel::finite);
   return n_failures > 0;
