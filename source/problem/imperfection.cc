@@ -191,18 +191,23 @@ namespace Nacre
     // The order of equally near points must not matter.
     std::sort(near.begin(), near.end());
     std::vector<Tensor<1, 3>> offsets;
-    double                    nearest = std::numeric_limits<double>::max();
-    double                    spread  = 0.;
+    Tensor<1, 3>              nearest;
+    double                    spread = 0.;
     for (const unsigned int k : near)
       {
         offsets.push_back(points_[k] - x);
-        nearest = std::min(nearest, offsets.back().norm());
-        spread  = std::max(spread, points_[k].distance(points_[near[0]]));
+        if (k == near[0] || offsets.back().norm() < nearest.norm())
+          nearest = offsets.back();
+        spread = std::max(spread, points_[k].distance(points_[near[0]]));
       }
+    // Beside the points, or off the surface on which they lie
     std::ostringstream message;
     message << where_ << ": no point of the file is near the point (" << x
-            << ") of the surface; the nearest is " << nearest << " away.";
-    AssertThrow(nearest <= spread, ExcMessage(message.str()));
+            << ") of the surface; the nearest is " << nearest.norm()
+            << " away.";
+    AssertThrow(nearest.norm() <= spread &&
+                  std::abs(nearest * t0) <= 0.1 * spread,
+                ExcMessage(message.str()));
     Tensor<1, 3> result;
     const auto   w = weights(offsets, t0);
     for (unsigned int k = 0; k < near.size(); ++k)
