@@ -323,6 +323,7 @@ def files(n_cells):
             "strip.msh": gmsh_4(folded_strip()),
             "cap_6.msh": gmsh_2(cap(18.998073)),
             "cap_8.msh": gmsh_2(cap(25.422925, 45.)),
+            "cap_30.msh": gmsh_2(cap(30.)),
             "cap_dynamic.msh": gmsh_2(cap(26.67, radius=22.27))}
 
 

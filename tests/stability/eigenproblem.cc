@@ -162,17 +162,15 @@ end
     {
       model.kinematics.membrane_strain = MembraneStrain::full;
       options.prestress                = kind;
-      discretization = std::make_unique<Discretization>(
-        model.midsurface,
-        MPI_COMM_WORLD,
-        Element{ElementType::lagrange, 2},
-        0,
-        0);
-      assembly  = std::make_unique<Assembly>(*discretization, model);
-      prestress = std::make_unique<Prestress>(*discretization,
-                                              *assembly,
-                                              model,
-                                              options);
+      discretization =
+        std::make_unique<Discretization>(model.midsurface,
+                                         MPI_COMM_WORLD,
+                                         Element{ElementType::lagrange, 2},
+                                         0,
+                                         0);
+      assembly = std::make_unique<Assembly>(*discretization, model);
+      prestress =
+        std::make_unique<Prestress>(*discretization, *assembly, model, options);
     }
 
     /** v . G u of the prestress of the state. */
@@ -242,7 +240,7 @@ end
     const Plate   plate(PrestressKind::linear);
     const Vector3 u_1({2., 3., 5.}), u_2({7., 11., 13.}), v({1., 2., 3.});
     const Vector3 e_1({1., 0., 0.}), e_2({0., 1., 0.});
-    const auto    u = linear_field(u_1, u_2);
+    const auto    u        = linear_field(u_1, u_2);
     const auto    constant = [&](const Point<3> &) { return v; };
     const double  exact =
       -Plate::p * Plate::area *
@@ -275,8 +273,7 @@ end
         return u;
       };
     };
-    const double exact =
-      alpha * (Plate::C * 8. / 3. - Plate::D * Plate::area);
+    const double exact = alpha * (Plate::C * 8. / 3. - Plate::D * Plate::area);
     const double found =
       plate.product(linear_field(Vector3({0., 0., alpha}), Vector3()),
                     square(0),
