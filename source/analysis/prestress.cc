@@ -266,27 +266,79 @@ namespace Nacre
     parts.kinematics.tangent = TangentType::consistent;
     const Assembly finite(discretization_, parts);
     const Instant  instant = model_.at(time);
-    Matrix         tangent;
-    finite.reinit_matrix(constraints_, tangent);
+    differentiate(
+      finite,
+      [&](const double place) {
+        Vector state(u);
+        state *= place;
+        return std::make_pair(state,
+                              Instant{instant.time, place * instant.factor});
+      },
+      1e-3 / gradient,
+      factor,
+      matrix);
+  }
+
+  void
+  Prestress::assemble_tangent(const Vector &u,
+                              const double  time,
+                              Matrix       &K) const
+  {
+    assembly_.reinit_matrix(constraints_, K);
+    Vector unused(discretization_.locally_owned_dofs(),
+                  discretization_.communicator());
+    assembly_.assemble(
+      u, assembly_.actions(model_.at(time)), constraints_, K, unused);
+  }
+
+  void
+  Prestress::add_tangent_rate(const Vector &u,
+                              const Vector &velocity,
+                              const double  time,
+                              const double  factor,
+                              Matrix       &matrix) const
+  {
+    const double gradient = largest_gradient(velocity);
+    AssertThrow(gradient > 0.,
+                ExcMessage("Analysis/Start from: no load and no prescribed "
+                           "displacement depends on t at that state, so that "
+                           "nothing makes it buckle."));
+    differentiate(
+      assembly_,
+      [&](const double place) {
+        Vector state(u);
+        state.add(place, velocity);
+        return std::make_pair(state, model_.at(time + place));
+      },
+      1e-3 / gradient,
+      factor,
+      matrix);
+    matrix.compress(VectorOperation::add);
+    clear_constrained(matrix);
+  }
+
+  void
+  Prestress::differentiate(const Assembly &assembly,
+                           const Line     &line,
+                           const double    step,
+                           const double    factor,
+                           Matrix         &matrix) const
+  {
+    Matrix tangent;
+    assembly.reinit_matrix(constraints_, tangent);
     Vector unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
     // Central differences of two steps, extrapolated: the error is of the
     // fourth order in displacement gradients of size 1e-3.
-    const double                    step      = 1e-3 / gradient;
     const std::pair<double, double> stencil[] = {{1., 2. / 3.},
                                                  {-1., -2. / 3.},
                                                  {2., -1. / 12.},
                                                  {-2., 1. / 12.}};
     for (const auto &[place, weight] : stencil)
       {
-        Vector state(u);
-        state *= place * step;
-        finite.assemble(state,
-                        finite.actions(
-                          {instant.time, place * step * instant.factor}),
-                        constraints_,
-                        tangent,
-                        unused);
+        const auto [state, instant] = line(place * step);
+        assembly.assemble(
+          state, assembly.actions(instant), constraints_, tangent, unused);
         matrix.add(factor * weight / step, tangent);
       }
   }
