@@ -267,41 +267,41 @@ namespace Nacre
   bool
   EquilibriumCurve::bisect(const PathState &before, PathPoint &point)
   {
-    PathState trial(before);
-    // In units of the step's length; the length of the last step of a path is
-    // that to the End time.
-    double    low = 0., high = before.next_step, low_time = before.time;
+    PathState low(before), high(point.state);
+    // All planes are normal to the step, so that states don't overtake.
+    Vector normal(high.motion.u);
+    normal -= low.motion.u;
+    double    share_left = 1.;
     const int n_halvings = 40;
     for (int k = 0; k < n_halvings; ++k)
       {
-        double      end = before.time;
-        PathAttempt attempt;
+        PathState trial(before);
+        bool      is_solved = false;
+        double    share     = 0.;
         // At the point itself the tangent may be singular.
-        for (const double share : {0.5, 0.45, 0.6})
-          if (!attempt.result.converged)
+        for (const double place : {0.5, 0.4, 0.65, 0.2, 0.85})
+          if (!is_solved)
             {
-              trial.next_step = (1. - share) * low + share * high;
-              attempt         = try_step(trial, end);
+              share          = place;
+              trial.motion.u = low.motion.u;
+              trial.motion.u.sadd(1. - share, share, high.motion.u);
+              trial.motion.v = normal;
+              trial.time     = (1. - share) * low.time + share * high.time;
+              is_solved      = settle(trial).empty();
             }
-        if (!attempt.result.converged)
+        if (!is_solved)
           return false;
-        const unsigned int n = attempt.result.last.n_negative_pivots;
-        if (n == point.n_before)
-          {
-            low      = trial.next_step;
-            low_time = end;
-          }
-        else
-          {
-            high                    = trial.next_step;
-            point.n_after           = n;
-            point.state.motion      = std::move(attempt.motion);
-            point.state.time        = end;
-            point.state.load_factor = system_.load_factor();
-          }
-        if (std::abs(point.state.time - low_time) <=
-              1e-6 * std::abs(low_time) &&
-            high - low <= 1e-4 * before.next_step)
+        const bool is_before = (trial.n_negative_pivots == point.n_before);
+        share_left *= is_before ? 1. - share : share;
+        (is_before ? low : high) = trial;
+        point.n_after            = high.n_negative_pivots;
+        point.state.motion       = high.motion;
+        point.state.time         = high.time;
+        point.state.load_factor  = high.load_factor;
+        const double scale =
+          std::max(std::abs(low.time), parameters_.time_step);
+        if (std::abs(high.time - low.time) <= 1e-6 * scale &&
+            share_left <= 1e-4)
           return true;
       }
     return false;

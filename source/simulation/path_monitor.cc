@@ -338,8 +338,7 @@ namespace Nacre
   {
     if (!path_.follows_curve())
       return grid_.n_steps_left(state.time, state.next_step);
-    const double n_most =
-      std::max(0., double(path_.maximum_steps) - double(state.step));
+    const double n_most = double(path_.maximum_steps) - double(state.step);
     double distance = 0., size = state.next_step;
     if (path_.controls_displacement())
       {
@@ -356,10 +355,10 @@ namespace Nacre
         // As if t went on changing as in the last step.
         distance = path_.end_time - state.time;
         size     = state.time - last_time_;
-        if (!(distance / size > 0.))
+        if (!(distance / size > 0. && distance / size < n_most))
           return {};
       }
-    return std::min(n_most, std::ceil(distance / size));
+    return std::ceil(distance / size);
   }
 
   std::string

@@ -109,14 +109,14 @@ namespace Nacre
 
     /**
      * The point at which stability changes within the step from @p before to
-     * @p after, by bisection of its length: to a relative 1e-6 of t.
+     * @p after, by bisection: to 1e-6 of t or of the time step.
      */
     PathPoint
     find_point(const PathState &before, const PathState &after);
 
     /**
-     * Narrow down the point from @p before to a state just after it, point.state.
-     * Returns whether it was pinpointed.
+     * Narrow down the point between @p before and point.state, which becomes a
+     * state just after it. Returns whether it was pinpointed.
      */
     bool
     bisect(const PathState &before, PathPoint &point);
