@@ -149,10 +149,6 @@ namespace Nacre
     const int sign             = callbacks.observe_point(point);
     if (sign == 0)
       return false;
-    AssertThrow(point.state.motion.a.l2_norm() > 0.,
-                ExcMessage("Analysis/Switch branch: the tangent at the point "
-                           "is singular to working precision, so that it has "
-                           "no mode; try another 'Analysis/Time step'."));
     after                   = point.state;
     after.n_negative_pivots = point.n_after;
     begin_branch(sign * static_cast<int>(after.n_bifurcations), after);
@@ -172,7 +168,8 @@ namespace Nacre
   }
 
   std::string
-  EquilibriumCurve::settle(PathState &state)
+  EquilibriumCurve::settle(PathState                         &state,
+                           const std::optional<unsigned int> &max_iterations)
   {
     PathAttempt attempt;
     if (state.motion.v.l2_norm() == 0.)
@@ -180,8 +177,9 @@ namespace Nacre
         find_equilibrium(parameters_, system_, state, state.time, false);
     else
       {
-        auto newton          = parameters_.newton;
-        newton.max_increment = 100. * system_.size();
+        auto newton           = parameters_.newton;
+        newton.max_increment  = 100. * system_.size();
+        newton.max_iterations = max_iterations.value_or(newton.max_iterations);
         ArcLengthStep step(system_, state.motion.u, state.time, rate_step());
         step.go_to_plane(state.motion.v, 0.);
         attempt          = {step.solve(newton), state.motion};
@@ -264,47 +262,125 @@ namespace Nacre
     return attempt;
   }
 
-  bool
-  EquilibriumCurve::bisect(const PathState &before, PathPoint &point)
+  PathState
+  EquilibriumCurve::interpolate(const PathState &low,
+                                const PathState &high,
+                                const double     share,
+                                const Vector    &normal) const
   {
-    PathState low(before), high(point.state);
-    // All planes are normal to the step, so that states don't overtake.
-    Vector normal(high.motion.u);
-    normal -= low.motion.u;
-    double    share_left = 1.;
-    const int n_halvings = 40;
-    for (int k = 0; k < n_halvings; ++k)
+    PathState state(low);
+    state.motion.u.sadd(1. - share, share, high.motion.u);
+    state.motion.v = normal;
+    state.time     = (1. - share) * low.time + share * high.time;
+    return state;
+  }
+
+  std::optional<double>
+  EquilibriumCurve::Bracket::crossing() const
+  {
+    if (!low_eigenvalue || !high_eigenvalue ||
+        !(*low_eigenvalue * *high_eigenvalue < 0.))
+      return {};
+    return *low_eigenvalue / (*low_eigenvalue - *high_eigenvalue);
+  }
+
+  bool
+  EquilibriumCurve::halve(const double     share,
+                          const Vector    &normal,
+                          Bracket         &bracket,
+                          const MassTerms &mass,
+                          Vector          &mode)
+  {
+    // At the point itself the tangent may be singular, and the meshes' own
+    // imperfection may leave a gap in the path.
+    for (const double place : {share, 0.5 * share, 0.5 + 0.5 * share})
       {
-        PathState trial(before);
-        bool      is_solved = false;
-        double    share     = 0.;
-        // At the point itself the tangent may be singular.
-        for (const double place : {0.5, 0.4, 0.65, 0.2, 0.85})
-          if (!is_solved)
-            {
-              share          = place;
-              trial.motion.u = low.motion.u;
-              trial.motion.u.sadd(1. - share, share, high.motion.u);
-              trial.motion.v = normal;
-              trial.time     = (1. - share) * low.time + share * high.time;
-              is_solved      = settle(trial).empty();
-            }
-        if (!is_solved)
-          return false;
-        const bool is_before = (trial.n_negative_pivots == point.n_before);
-        share_left *= is_before ? 1. - share : share;
-        (is_before ? low : high) = trial;
-        point.n_after            = high.n_negative_pivots;
-        point.state.motion       = high.motion;
-        point.state.time         = high.time;
-        point.state.load_factor  = high.load_factor;
-        const double scale =
-          std::max(std::abs(low.time), parameters_.time_step);
-        if (std::abs(high.time - low.time) <= 1e-6 * scale &&
-            share_left <= 1e-4)
-          return true;
+        PathState trial =
+          interpolate(bracket.low, bracket.high, place, normal);
+        if (!settle(trial, 8).empty())
+          continue;
+        const double eigenvalue = system_.improve_mode(mass, 6, mode);
+        const bool   is_before =
+          trial.n_negative_pivots == bracket.low.n_negative_pivots;
+        (is_before ? bracket.low : bracket.high) = trial;
+        (is_before ? bracket.low_eigenvalue : bracket.high_eigenvalue) =
+          eigenvalue;
+        bracket.size *= is_before ? 1. - place : place;
+        return true;
       }
     return false;
+  }
+
+  void
+  EquilibriumCurve::narrow(const PathState &before, PathPoint &point)
+  {
+    // All planes are normal to the step, so that states don't overtake.
+    Vector normal(point.state.motion.u);
+    normal -= before.motion.u;
+    const MassTerms       mass(system_.discretization());
+    Vector                mode = any_mode();
+    Bracket               bracket{before, point.state};
+    std::optional<double> crossing, time;
+    bool                  is_found = false;
+    for (unsigned int k = 0; k < 40 && !is_found; ++k)
+      {
+        // To both sides of where the eigenvalue crosses zero.
+        const double side = k % 2 == 0 ? 0.15 : -0.15;
+        const double share =
+          crossing ? std::clamp(*crossing + side, 0.05, 0.95) : 0.5;
+        if (!halve(share, normal, bracket, mass, mode))
+          break;
+        const PathState &low = bracket.low, &high = bracket.high;
+        const double scale = std::max(std::abs(low.time),
+                                      parameters_.time_step);
+        is_found           = std::abs(high.time - low.time) <= 1e-6 * scale &&
+                   bracket.size <= 1e-4;
+        crossing = bracket.crossing();
+        if (!crossing)
+          continue;
+        const double last = time.value_or(high.time + scale);
+        time = (1. - *crossing) * low.time + *crossing * high.time;
+        is_found =
+          is_found ||
+          (std::abs(*time - last) <= 2e-7 * scale && bracket.size <= 1e-2);
+      }
+    // Not at the crossing itself, where the tangent would be singular.
+    place(bracket, std::min(crossing.value_or(1.) + 1e-4, 1.), normal, point);
+    const bool is_limit =
+      rises(bracket.low, normal) != rises(bracket.high, normal);
+    if (!crossing)
+      system_.improve_mode(mass, 10, mode);
+    const unsigned int n_changes = std::max(point.n_before, point.n_after) -
+                                   std::min(point.n_before, point.n_after);
+    point.kind = !is_limit      ? "bifurcation" :
+                 n_changes == 1 ? "limit" :
+                                  "limit and bifurcation";
+    if (!is_found)
+      point.kind += " (not pinpointed)";
+    point.state.motion.a = scaled_mode(mode);
+  }
+
+  void
+  EquilibriumCurve::place(const Bracket &bracket,
+                          const double   crossing,
+                          const Vector  &normal,
+                          PathPoint     &point)
+  {
+    PathState state =
+      interpolate(bracket.low, bracket.high, crossing, normal);
+    PathState    exact(state);
+    const double scale =
+      std::max(std::abs(state.time), parameters_.time_step);
+    if (settle(exact, 5).empty() &&
+        std::abs(exact.time - state.time) <=
+          std::max(1e-5 * scale,
+                   std::abs(bracket.high.time - bracket.low.time)))
+      state = exact;
+    system_.set_time(state.time);
+    point.n_after           = bracket.high.n_negative_pivots;
+    point.state.motion      = state.motion;
+    point.state.time        = state.time;
+    point.state.load_factor = system_.load_factor();
   }
 
   PathPoint
@@ -316,40 +392,25 @@ namespace Nacre
     point.state           = after;
     // The point lies before what the step has reached.
     point.state.n_controls = before.n_controls;
-    const bool    is_found = bisect(before, point);
-    const Vector &side =
-      before.motion.v.l2_norm() > 0. ? before.motion.v : after.motion.v;
-    const bool is_limit =
-      rises(before, side) != rises(point.state, point.state.motion.v);
-    const unsigned int n_changes = std::max(point.n_before, point.n_after) -
-                                   std::min(point.n_before, point.n_after);
-    point.kind = !is_limit      ? "bifurcation" :
-                 n_changes == 1 ? "limit" :
-                                  "limit and bifurcation";
-    if (!is_found)
-      point.kind += " (not pinpointed)";
-    point.state.motion.a = lowest_mode(point.state);
+    narrow(before, point);
     return point;
   }
 
   EquilibriumCurve::Vector
-  EquilibriumCurve::lowest_mode(const PathState &state)
+  EquilibriumCurve::any_mode() const
   {
-    const MassTerms mass(system_.discretization());
-    Vector          du = system_.owned_vector();
-    system_.set_time(state.time);
-    const auto step = system_.solve_linearised(state.motion.u, du);
-    if (step.failure.kind != FailureKind::none)
-      return system_.owned_vector();
-    // Any vector that has a part of each mode.
-    Vector mode = system_.interpolate([this](const Point<spacedim> &x) {
+    return system_.interpolate([this](const Point<spacedim> &x) {
       Tensor<1, spacedim> value;
       for (unsigned int c = 0; c < spacedim; ++c)
         value[c] =
           std::sin((7.3 * x[0] + 5.1 * x[1] + 6.7 * x[2]) / system_.size() + c);
       return value;
     });
-    system_.improve_mode(mass, 10, mode);
+  }
+
+  EquilibriumCurve::Vector
+  EquilibriumCurve::scaled_mode(const Vector &mode) const
+  {
     double largest = 0.;
     for (const double entry : mode)
       if (std::abs(entry) > std::abs(largest))
@@ -359,8 +420,9 @@ namespace Nacre
                                     largest))
       if (std::abs(other) > std::abs(largest))
         largest = other;
-    mode /= largest;
-    return mode;
+    Vector result(mode);
+    result /= largest;
+    return result;
   }
 
   bool

@@ -46,9 +46,11 @@ namespace Nacre
      * Bring a @p state that is close to equilibrium to the curve, in the plane
      * normal to its direction, or at its time if it has none. Returns "" or
      * why that failed; @p state is unchanged then.
+     * @param max_iterations in the plane, if not as many as a step may take
      */
     std::string
-    settle(PathState &state);
+    settle(PathState                         &state,
+           const std::optional<unsigned int> &max_iterations = {});
 
     /**
      * Make @p state, that of a bifurcation point, the start of the branch
@@ -107,28 +109,81 @@ namespace Nacre
                    const PathCallbacks &callbacks,
                    PathState           &after);
 
+    /** Two states between which stability changes. */
+    struct Bracket
+    {
+      PathState low;
+      PathState high;
+      /** Of the share of the step between them. */
+      double size = 1.;
+      /** The tangents' smallest eigenvalues there, if known. */
+      std::optional<double> low_eigenvalue  = {};
+      std::optional<double> high_eigenvalue = {};
+
+      /**
+       * The share of the way from low to high where the smallest eigenvalue
+       * crosses zero by interpolation, if it has changed its sign.
+       */
+      std::optional<double>
+      crossing() const;
+    };
+
     /**
      * The point at which stability changes within the step from @p before to
-     * @p after, by bisection: to 1e-6 of t or of the time step.
+     * @p after: to 1e-6 of t or of the time step.
      */
     PathPoint
     find_point(const PathState &before, const PathState &after);
 
     /**
-     * Narrow down the point between @p before and point.state, which becomes a
-     * state just after it. Returns whether it was pinpointed.
+     * Narrow down the point between @p before and point.state, which becomes
+     * its state, with the mode there, and tell its kind.
+     *
+     * The eigenvalue's crossing of zero is interpolated from states on both
+     * sides: a mesh that lacks the shell's symmetry a little makes another
+     * curve of a bifurcation point, with a gap at the point itself, into which
+     * no bisection leads.
+     */
+    void
+    narrow(const PathState &before, PathPoint &point);
+
+    /**
+     * Replace an end of the @p bracket by a state about @p share of the way
+     * from low to high. Returns whether one was found.
+     * @param mode a guess of the smallest eigenvalue's, which is improved
      */
     bool
-    bisect(const PathState &before, PathPoint &point);
+    halve(const double     share,
+          const Vector    &normal,
+          Bracket         &bracket,
+          const MassTerms &mass,
+          Vector          &mode);
+
+    /** Take the state at the @p crossing as that of the @p point. */
+    void
+    place(const Bracket &bracket,
+          const double   crossing,
+          const Vector  &normal,
+          PathPoint     &point);
+
+    /** Between two states, with the @p normal of a plane as direction. */
+    PathState
+    interpolate(const PathState &low,
+                const PathState &high,
+                const double     share,
+                const Vector    &normal) const;
+
+    /** A displacement that has a part of each mode. */
+    Vector
+    any_mode() const;
 
     /** Whether t rises along @p direction at @p state. */
     bool
     rises(const PathState &state, const Vector &direction);
 
-    /** The mode of the tangent's smallest eigenvalue, its largest entry 1; zero
-     * if the tangent is singular to working precision. */
+    /** The @p mode with a largest entry of 1. */
     Vector
-    lowest_mode(const PathState &state);
+    scaled_mode(const Vector &mode) const;
 
     /** Of derivatives with respect to the time. */
     double
