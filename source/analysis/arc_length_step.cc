@@ -97,10 +97,9 @@ namespace Nacre
     Vector change(u);
     change -= start_;
     change += du;
-    const double slope = normal_ * velocity;
-    const double dt    = (distance_ - normal_ * change) / slope;
-    const double smallest =
-      1e-12 * normal_.l2_norm() * velocity.l2_norm();
+    const double slope    = normal_ * velocity;
+    const double dt       = (distance_ - normal_ * change) / slope;
+    const double smallest = 1e-12 * normal_.l2_norm() * velocity.l2_norm();
     if (!(std::abs(slope) > smallest) || !std::isfinite(dt))
       {
         step.failure = {FailureKind::singular_tangent,

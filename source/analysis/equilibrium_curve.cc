@@ -117,9 +117,8 @@ namespace Nacre
     text << "step " << state.step + 1 << " from t = " << state.time << ": "
          << attempt.result.reason;
     // The branch is too near to the point that it leaves.
-    const bool is_near =
-      state.begins_branch &&
-      attempt.result.kind == FailureKind::singular_tangent;
+    const bool is_near = state.begins_branch &&
+                         attempt.result.kind == FailureKind::singular_tangent;
     const bool may_go_on =
       step_control_.reject(state,
                            is_near ? 4. * state.next_step : state.next_step);
@@ -197,8 +196,8 @@ namespace Nacre
   EquilibriumCurve::try_step_to_end(const PathState &state, double &end)
   {
     PathAttempt attempt = try_step(state, end);
-    if (control_ || !attempt.result.converged ||
-        end == parameters_.end_time || !is_beyond_end(end))
+    if (control_ || !attempt.result.converged || end == parameters_.end_time ||
+        !is_beyond_end(end))
       return attempt;
     end = parameters_.end_time;
     PathState guess(state);
@@ -220,9 +219,8 @@ namespace Nacre
       }
     else if (control_)
       {
-        const double distance =
-          parameters_.control_values[state.n_controls] -
-          controlled(state.motion.u);
+        const double distance = parameters_.control_values[state.n_controls] -
+                                controlled(state.motion.u);
         // No rest is left that isn't worth a step.
         const bool arrives = std::abs(distance) <= 1.001 * state.next_step;
         step.go_to_plane(*control_,
@@ -233,7 +231,7 @@ namespace Nacre
       {
         const double speed = state.motion.v.l2_norm();
         step.go_along_tangent(state.motion.v,
-                              speed > 0.                  ? state.next_step * speed :
+                              speed > 0. ? state.next_step * speed :
                               parameters_.begins_downward ? -state.next_step :
                                                             state.next_step);
       }
@@ -255,8 +253,9 @@ namespace Nacre
     Vector      &next  = attempt.motion.v;
     next               = step.displacement();
     next -= state.motion.u;
-    next *= (speed > 0. ? speed : step.predictor().l2_norm() / state.next_step) /
-            next.l2_norm();
+    next *=
+      (speed > 0. ? speed : step.predictor().l2_norm() / state.next_step) /
+      next.l2_norm();
     end = step.time();
     attempt.check(system_, false, &state);
     return attempt;
@@ -295,8 +294,7 @@ namespace Nacre
     // imperfection may leave a gap in the path.
     for (const double place : {share, 0.5 * share, 0.5 + 0.5 * share})
       {
-        PathState trial =
-          interpolate(bracket.low, bracket.high, place, normal);
+        PathState trial = interpolate(bracket.low, bracket.high, place, normal);
         if (!settle(trial, 8).empty())
           continue;
         const double eigenvalue = system_.improve_mode(mass, 6, mode);
@@ -331,18 +329,17 @@ namespace Nacre
         if (!halve(share, normal, bracket, mass, mode))
           break;
         const PathState &low = bracket.low, &high = bracket.high;
-        const double scale = std::max(std::abs(low.time),
-                                      parameters_.time_step);
-        is_found           = std::abs(high.time - low.time) <= 1e-6 * scale &&
+        const double     scale =
+          std::max(std::abs(low.time), parameters_.time_step);
+        is_found = std::abs(high.time - low.time) <= 1e-6 * scale &&
                    bracket.size <= 1e-4;
         crossing = bracket.crossing();
         if (!crossing)
           continue;
         const double last = time.value_or(high.time + scale);
-        time = (1. - *crossing) * low.time + *crossing * high.time;
-        is_found =
-          is_found ||
-          (std::abs(*time - last) <= 2e-7 * scale && bracket.size <= 1e-2);
+        time              = (1. - *crossing) * low.time + *crossing * high.time;
+        is_found = is_found || (std::abs(*time - last) <= 2e-7 * scale &&
+                                bracket.size <= 1e-2);
       }
     // Not at the crossing itself, where the tangent would be singular.
     place(bracket, std::min(crossing.value_or(1.) + 1e-4, 1.), normal, point);
@@ -366,11 +363,9 @@ namespace Nacre
                           const Vector  &normal,
                           PathPoint     &point)
   {
-    PathState state =
-      interpolate(bracket.low, bracket.high, crossing, normal);
-    PathState    exact(state);
-    const double scale =
-      std::max(std::abs(state.time), parameters_.time_step);
+    PathState state = interpolate(bracket.low, bracket.high, crossing, normal);
+    PathState exact(state);
+    const double scale = std::max(std::abs(state.time), parameters_.time_step);
     if (settle(exact, 5).empty() &&
         std::abs(exact.time - state.time) <=
           std::max(1e-5 * scale,
@@ -387,9 +382,9 @@ namespace Nacre
   EquilibriumCurve::find_point(const PathState &before, const PathState &after)
   {
     PathPoint point;
-    point.n_before        = before.n_negative_pivots;
-    point.n_after         = after.n_negative_pivots;
-    point.state           = after;
+    point.n_before = before.n_negative_pivots;
+    point.n_after  = after.n_negative_pivots;
+    point.state    = after;
     // The point lies before what the step has reached.
     point.state.n_controls = before.n_controls;
     narrow(before, point);

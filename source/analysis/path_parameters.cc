@@ -216,7 +216,8 @@ namespace Nacre
                   "displacements, and in dynamics velocities, are the start of "
                   "this path at t = 0: on the same mesh, under any loads, "
                   "supports, section and Type. Buckling and vibration are "
-                  "those of that state, under the loads at its t. A relative name starts from the "
+                  "those of that state, under the loads at its t. A relative "
+                  "name starts from the "
                   "current folder. Empty: the undeformed shell at rest.");
     add_parameter("Load factor",
                   load_factor_text_,
@@ -333,31 +334,34 @@ namespace Nacre
                   "branch after so many of its own; 0: any number.",
                   prm,
                   Patterns::Integer(0));
-    add_parameter("Stop where",
-                  stop_where_text_,
-                  "'NAME < NUMBER, NAME > NUMBER, ...': a path of any Type ends "
-                  "after the first step in which one of these holds of the "
-                  "quantity NAME of 'Quantities', the 'load factor' or 't'. "
-                  "Units: those of the quantity.");
-    add_parameter("Switch branch",
-                  switch_branch_text_,
-                  "Branches of a path with arc length or displacement control. "
-                  "none: it stays on the primary path. k: at the k-th "
-                  "bifurcation point it goes on along the branch that leaves "
-                  "there, in the direction of the mode whose largest "
-                  "displacement is along +x, +y or +z; -k: the other way. all, "
-                  "or several numbers, 'k, -k, ...': each branch is a path with "
-                  "files of its own, NAME_branchK; 0: the primary path is "
-                  "followed to its end, too.");
+    add_parameter(
+      "Stop where",
+      stop_where_text_,
+      "'NAME < NUMBER, NAME > NUMBER, ...': a path of any Type ends "
+      "after the first step in which one of these holds of the "
+      "quantity NAME of 'Quantities', the 'load factor' or 't'. "
+      "Units: those of the quantity.");
+    add_parameter(
+      "Switch branch",
+      switch_branch_text_,
+      "Branches of a path with arc length or displacement control. "
+      "none: it stays on the primary path. k: at the k-th "
+      "bifurcation point it goes on along the branch that leaves "
+      "there, in the direction of the mode whose largest "
+      "displacement is along +x, +y or +z; -k: the other way. all, "
+      "or several numbers, 'k, -k, ...': each branch is a path with "
+      "files of its own, NAME_branchK; 0: the primary path is "
+      "followed to its end, too.");
     add_parameter("Control",
                   control_text_,
                   "With displacement control: the name of the quantity that is "
                   "prescribed in steps, a displacement at a point.");
-    add_parameter("Control values",
-                  control_values_text_,
-                  "'q1, q2, ...': the quantity goes from its value at the start "
-                  "to q1, then to q2, ..., where the path ends. Units: those of "
-                  "Control.");
+    add_parameter(
+      "Control values",
+      control_values_text_,
+      "'q1, q2, ...': the quantity goes from its value at the start "
+      "to q1, then to q2, ..., where the path ends. Units: those of "
+      "Control.");
     add_parameter("Control step",
                   control_step_text_,
                   "Size of its steps; they are halved and grow between the "
@@ -409,8 +413,8 @@ namespace Nacre
   AnalysisParameters::check_use(const PathParameters &path) const
   {
     const std::string type = "Type = " + name_of(path.type);
-    AssertThrow(path.follows_curve() || (path.branches.numbers.empty() &&
-                                         !path.branches.all),
+    AssertThrow(path.follows_curve() ||
+                  (path.branches.numbers.empty() && !path.branches.all),
                 ExcMessage("Analysis/Switch branch: " + type +
                            " finds no branches; choose 'arc length' or "
                            "'displacement control', or none."));
@@ -426,10 +430,10 @@ namespace Nacre
                              !path.control_values.empty() ||
                              control_step_text_ != "default";
     AssertThrow(path.controls_displacement() || !has_control,
-                ExcMessage("Analysis/Control, Control values, Control step: " +
-                           type +
-                           " controls no quantity; choose 'displacement "
-                           "control', or leave them out."));
+                ExcMessage(
+                  "Analysis/Control, Control values, Control step: " + type +
+                  " controls no quantity; choose 'displacement "
+                  "control', or leave them out."));
     AssertThrow(!path.controls_displacement() ||
                   (!path.control.empty() && !path.control_values.empty()),
                 ExcMessage("Analysis/Control: " + type +
@@ -454,12 +458,11 @@ namespace Nacre
                                  PathParameters  &path) const
   {
     const bool is_curve = path.follows_curve();
-    path.end_time       = is_curve ?
-                            nonzero(end_time_text_, "End time", constants) :
-                            positive(end_time_text_, "End time", constants);
-    path.time_step      = is_curve ?
-                            nonzero(time_step_text_, "Time step", constants) :
-                            positive(time_step_text_, "Time step", constants);
+    path.end_time  = is_curve ? nonzero(end_time_text_, "End time", constants) :
+                                positive(end_time_text_, "End time", constants);
+    path.time_step = is_curve ?
+                       nonzero(time_step_text_, "Time step", constants) :
+                       positive(time_step_text_, "Time step", constants);
     path.begins_downward = path.time_step < 0.;
     path.time_step       = std::abs(path.time_step);
     path.minimum_time_step =

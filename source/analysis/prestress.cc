@@ -287,8 +287,11 @@ namespace Nacre
     assembly_.reinit_matrix(constraints_, K);
     Vector unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
-    assembly_.assemble(
-      u, assembly_.actions(model_.at(time)), constraints_, K, unused);
+    assembly_.assemble(u,
+                       assembly_.actions(model_.at(time)),
+                       constraints_,
+                       K,
+                       unused);
   }
 
   void
@@ -337,8 +340,11 @@ namespace Nacre
     for (const auto &[place, weight] : stencil)
       {
         const auto [state, instant] = line(place * step);
-        assembly.assemble(
-          state, assembly.actions(instant), constraints_, tangent, unused);
+        assembly.assemble(state,
+                          assembly.actions(instant),
+                          constraints_,
+                          tangent,
+                          unused);
         matrix.add(factor * weight / step, tangent);
       }
   }

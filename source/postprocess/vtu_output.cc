@@ -349,9 +349,9 @@ namespace Nacre
   } // namespace
 
 
-  ShellFields::ShellFields(const ShellState                    &state,
-                           const std::vector<double>           &error_indicators,
-                           const unsigned int                   n_subdivisions,
+  ShellFields::ShellFields(const ShellState          &state,
+                           const std::vector<double> &error_indicators,
+                           const unsigned int         n_subdivisions,
                            const TrilinosWrappers::MPI::Vector *mode)
     : n_layers_(state.model.section.n_layers())
     , has_error_indicators_(!error_indicators.empty())

@@ -85,8 +85,11 @@ namespace Nacre
     CpuTimer timer(communicator_);
     prestress.assemble_tangent(start()->u, start()->time, K);
     shell.assembly().reinit_matrix(prestress.constraints(), G);
-    prestress.add_tangent_rate(
-      start()->u, start()->velocity, start()->time, -1., G);
+    prestress.add_tangent_rate(start()->u,
+                               start()->velocity,
+                               start()->time,
+                               -1.,
+                               G);
     modes.state = start()->u;
     modes.assembly += timer.lap();
     std::ostringstream text;
@@ -116,8 +119,8 @@ namespace Nacre
                              "take one before the first limit or bifurcation "
                              "point." :
                              "The shell is unstable without the loads that are "
-                           "scaled: the stiffness with those at t = 0 is not "
-                           "positive definite. Make them smaller."));
+                             "scaled: the stiffness with those at t = 0 is not "
+                             "positive definite. Make them smaller."));
     const FactorSign sign = problem_.modes.sign;
     if (sign != FactorSign::negative)
       add_modes(problem, 1., modes);
@@ -175,12 +178,11 @@ namespace Nacre
       modes.notes.push_back("There are no " + name +
                             ": that way nothing buckles.");
     else
-      modes.notes.push_back(counted_in_words(spectrum,
-                                             name,
-                                             origin() +
-                                               sign * spectrum.counted.first,
-                                             origin() +
-                                               sign * spectrum.counted.second));
+      modes.notes.push_back(
+        counted_in_words(spectrum,
+                         name,
+                         origin() + sign * spectrum.counted.first,
+                         origin() + sign * spectrum.counted.second));
     modes.values.n_below = spectrum.n_below;
     const auto counts    = multiplicities(spectrum.values);
     for (unsigned int k = 0; k < spectrum.values.size(); ++k)

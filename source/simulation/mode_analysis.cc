@@ -86,7 +86,7 @@ namespace Nacre
     const PathParameters &path = problem_.path;
     if (path.start_from.empty())
       return;
-    PathState   state = load_start(path,
+    PathState state = load_start(path,
                                  current_problem(communicator_),
                                  shell.discretization(),
                                  mode_files(recorder).file(""),
@@ -223,9 +223,7 @@ namespace Nacre
         const unsigned int number = modes.values.n_below + k + 1;
         const Vector       mode =
           scaled_mode(modes.vectors[k], prestress.constraints(), shell);
-        VtuOutput::Entry entry(number,
-                               number,
-                               "mode" + std::to_string(number));
+        VtuOutput::Entry entry(number, number, "mode" + std::to_string(number));
         // Finite strains of a mode mean nothing: it stands beside the state.
         if (start_)
           entry.mode = &mode;

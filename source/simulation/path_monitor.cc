@@ -325,7 +325,7 @@ namespace Nacre
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];
     const unsigned int n_done = state.step - start_step_;
-    const auto n_left = n_steps_left(state, values);
+    const auto         n_left = n_steps_left(state, values);
     if (options_.report_seconds && n_done > 0 && n_left)
       line << std::fixed << std::setprecision(0) << ", "
            << timer_.wall_time() / n_done * *n_left << " s left";
@@ -338,8 +338,8 @@ namespace Nacre
   {
     if (!path_.follows_curve())
       return grid_.n_steps_left(state.time, state.next_step);
-    const double n_most = double(path_.maximum_steps) - double(state.step);
-    double distance = 0., size = state.next_step;
+    const double n_most   = double(path_.maximum_steps) - double(state.step);
+    double       distance = 0., size = state.next_step;
     if (path_.controls_displacement())
       {
         double value = 0.;
@@ -374,6 +374,10 @@ namespace Nacre
            << (n_fields == 1 ? " step: " : " steps: ")
            << options_.file(
                 options_.fields.format == FieldFormat::hdf5 ? ".xdmf" : ".pvd");
+    const unsigned int n_points = written_.state.n_points;
+    if (n_points > 0)
+      text << "; " << n_points << (n_points == 1 ? " point: " : " points: ")
+           << points_csv_;
     if (has_saved_)
       text << "; " << options_.file(".checkpoint");
     return text.str();

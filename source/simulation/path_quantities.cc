@@ -72,11 +72,9 @@ namespace Nacre
     for (const auto &bound : path.bounds)
       {
         const auto *const quantity = find_quantity(quantities, bound.quantity);
-        const double      value    = quantity != nullptr ?
-                                       quantity->evaluate(shell) :
-                                     bound.quantity == time_name ?
-                                       state.time :
-                                       state.load_factor;
+        const double value = quantity != nullptr ? quantity->evaluate(shell) :
+                             bound.quantity == time_name ? state.time :
+                                                           state.load_factor;
         if (bound.holds(value))
           return bound.text();
       }

@@ -233,19 +233,16 @@ namespace Nacre
           failure += (failure.empty() ? "" : " ") + std::string("Branch ") +
                      std::to_string(branch) + ": " + end.failure;
       }
-    record.assembly =
-      Utilities::MPI::sum(assembly_seconds_ +
-                            stepped_->system.assembly_seconds(),
-                          communicator_);
-    record.solve = timer.lap() - record.assembly;
+    record.assembly = Utilities::MPI::sum(assembly_seconds_ +
+                                            stepped_->system.assembly_seconds(),
+                                          communicator_);
+    record.solve    = timer.lap() - record.assembly;
     AssertThrow(failure.empty(), ExcMessage(failure));
     add_row(end.state, record, recorder);
   }
 
   PathRun::PathEnd
-  PathRun::follow_path(const int  branch,
-                       const bool restart,
-                       Recorder  &recorder)
+  PathRun::follow_path(const int branch, const bool restart, Recorder &recorder)
   {
     const OutputOptions primary = own_options(recorder);
     const OutputOptions options = own_options(recorder, branch);
@@ -261,8 +258,8 @@ namespace Nacre
                         !adaptive_.is_on(),
                         log_);
     const bool  goes_on =
-      restart && (branch == 0 || std::filesystem::exists(
-                                   options.file(".checkpoint")));
+      restart &&
+      (branch == 0 || std::filesystem::exists(options.file(".checkpoint")));
     PathEnd end{begin(branch, goes_on, options, checkpoint, monitor, recorder),
                 ""};
     if (!goes_on || !ends(end.state, recorder.quantities()))
@@ -318,11 +315,11 @@ namespace Nacre
     if (!choice.has_several())
       return {};
     if (choice.n_bifurcations() > n_found)
-      log_.warning("Analysis/Switch branch: the primary path has only " +
-                   std::to_string(n_found) +
-                   (n_found == 1 ? " bifurcation point; " :
-                                   " bifurcation points; ") +
-                   "the branches of others are left out.");
+      log_.warning(
+        "Analysis/Switch branch: the primary path has only " +
+        std::to_string(n_found) +
+        (n_found == 1 ? " bifurcation point; " : " bifurcation points; ") +
+        "the branches of others are left out.");
     return choice.branches(n_found);
   }
 
@@ -368,8 +365,7 @@ namespace Nacre
   }
 
   bool
-  PathRun::ends(const PathState            &state,
-                const QuantitiesOfInterest &quantities)
+  PathRun::ends(const PathState &state, const QuantitiesOfInterest &quantities)
   {
     const PathParameters &path = problem_.path;
     std::string           why;
@@ -412,8 +408,8 @@ namespace Nacre
       log_.progress() << text << std::endl;
     };
     callbacks.pauses = [&](const PathState &step) {
-      pauses = n_refinements_ < adaptive_.n_cycles() &&
-               adaptive_.is_due(step.step);
+      pauses =
+        n_refinements_ < adaptive_.n_cycles() && adaptive_.is_due(step.step);
       return pauses;
     };
     callbacks.ends = [&](const PathState &step) {
@@ -455,8 +451,11 @@ namespace Nacre
     mesh = stepped_->shell.release_mesh();
     stepped_.reset();
     transfer->refine(*mesh);
-    stepped_ = std::make_unique<SteppedShell>(
-      communicator_, problem_, quantities, std::move(mesh), log_);
+    stepped_ = std::make_unique<SteppedShell>(communicator_,
+                                              problem_,
+                                              quantities,
+                                              std::move(mesh),
+                                              log_);
     ++n_refinements_;
     const auto        &discretization = stepped_->shell.discretization();
     std::ostringstream text;
@@ -465,9 +464,9 @@ namespace Nacre
          << discretization.triangulation().n_global_active_cells() << " cells, "
          << discretization.dof_handler().n_dofs() << " dofs";
     log_.progress() << text.str() << std::endl;
-    state.motion.u = transfer->field_on(discretization, 0);
-    state.motion.v = transfer->field_on(discretization, 1);
-    state.motion.a = stepped_->system.owned_vector();
+    state.motion.u              = transfer->field_on(discretization, 0);
+    state.motion.v              = transfer->field_on(discretization, 1);
+    state.motion.a              = stepped_->system.owned_vector();
     const unsigned int n_before = state.n_negative_pivots;
     const std::string  failure  = stepped_->path.settle(state);
     AssertThrow(failure.empty(),

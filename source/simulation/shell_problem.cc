@@ -175,8 +175,8 @@ namespace Nacre
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);
     problem.modes          = modes_.make(problem.path.type,
-                                         !problem.path.start_from.empty(),
-                                         constants);
+                                !problem.path.start_from.empty(),
+                                constants);
     if (!problem.path.is_linear())
       model.load_factor = std::move(load_factor);
     problem.n_refinements = shell_case.n_refinements;
@@ -234,11 +234,10 @@ namespace Nacre
                                 "know the inertia of a dynamic analysis; "
                                 "choose auto or direct.")));
     const std::string type = "'Analysis/Type = " + name_of(problem.path.type);
-    const bool at_rest =
+    const bool        at_rest =
       seeks_modes(problem.path.type) && problem.path.start_from.empty();
-    AssertThrow(!at_rest ||
-                  (linear_kinematics &&
-                   options.edge_form == EdgeForm::rotation_jump),
+    AssertThrow(!at_rest || (linear_kinematics &&
+                             options.edge_form == EdgeForm::rotation_jump),
                 ExcMessage("Discretization/Kinematics, Edge form: " + type +
                            "' linearises about the undeformed shell; choose "
                            "'Kinematics = linear' and 'Edge form = rotation "
@@ -256,8 +255,9 @@ namespace Nacre
                   options.tangent != TangentType::frozen,
                 ExcMessage("Discretization/Tangent: 'frozen' converges slowly, "
                            "and " +
-                           type + "' needs the derivative; choose "
-                                  "'symmetric'."));
+                           type +
+                           "' needs the derivative; choose "
+                           "'symmetric'."));
     AssertThrow(problem.assembly == AssemblyMethod::fast ||
                   (problem.path.is_linear() &&
                    options.edge_form == EdgeForm::rotation_jump),

@@ -119,9 +119,8 @@ namespace Nacre
       prestress.assemble_stiffness(K);
     assemble_mass(mass, prestress.constraints(), shell, M);
     modes.assembly += timer.lap();
-    modes.state = start() != nullptr ?
-                    start()->u :
-                    prestress.solve(K, 1., shell.solver());
+    modes.state =
+      start() != nullptr ? start()->u : prestress.solve(K, 1., shell.solver());
     timer.lap();
     if (problem_.modes.prestress != PrestressKind::none)
       {

@@ -53,7 +53,7 @@ def check_same(name, rows, others, tolerance):
                   f"{name}, {column}: {row} and {other}")
 
 
-@test(1, 2)
+@test(1)
 def point_files(folder):
     """A point is written with its mode, and a path can begin there."""
     text = folder.succeed(ARCH, Study__Degrees="3", Study__Name="case",
@@ -115,7 +115,7 @@ def control(folder):
                 expect=("Analysis/Control", "not linear", "arc length"))
 
 
-@test(1, 2)
+@test(1)
 def all_branches(folder):
     """Each side of the strip's branch in files of its own; mirror images. A
     run that goes on with what an earlier one has found ends up the same."""
@@ -130,8 +130,6 @@ def all_branches(folder):
                float(points[0]["time"]), 1e-12)
     ends = [float(paths[f"_branch{k}"][-1]["w"]) for k in (1, -1)]
     check(ends[0] > 0.3 and near(ends[0], -ends[1], 1e-6), f"ends {ends}")
-    if folder.ranks > 1:
-        return
     for name in ("_branch-1_path.csv", "_branch-1.checkpoint"):
         (folder.path / "output" / f"strip{name}").unlink()
     folder.succeed(STRIP, "--restart", **SHORT, Analysis__Switch_branch="all")

@@ -201,7 +201,7 @@ namespace Nacre
   struct PathParameters : StepParameters
   {
     /** Negative if a curve of equilibria ends at a negative t. */
-    double end_time = 1.;
+    double end_time          = 1.;
     double time_step         = 0.1;
     double minimum_time_step = 1e-4;
     double maximum_time_step = 0.1;

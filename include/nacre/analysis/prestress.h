@@ -18,8 +18,8 @@ namespace Nacre
 {
   /**
    * The stiffness of a shell in a linear state: K + G, where G is what the
-   * state adds; or that of a nonlinear state. Matrices have the constraints eliminated, which are those of
-   * the eigenproblem, homogeneous ones.
+   * state adds; or that of a nonlinear state. Matrices have the constraints
+   * eliminated, which are those of the eigenproblem, homogeneous ones.
    */
   class Prestress
   {

@@ -78,9 +78,7 @@ namespace Nacre
      * @param restart whether it goes on from a checkpoint of its own
      */
     PathEnd
-    follow_path(const int  branch,
-                const bool restart,
-                Recorder  &recorder);
+    follow_path(const int branch, const bool restart, Recorder &recorder);
 
     /** The state that a path begins with, and the start of its files. */
     PathState
@@ -97,8 +95,7 @@ namespace Nacre
 
     /** Whether the path ends at @p state; tells why. */
     bool
-    ends(const PathState            &state,
-         const QuantitiesOfInterest &quantities);
+    ends(const PathState &state, const QuantitiesOfInterest &quantities);
 
     /**
      * Take note of a point of a curve.
@@ -149,9 +146,9 @@ namespace Nacre
     std::unique_ptr<SteppedShell> stepped_;
     /** States of the primary path's bifurcation points, by their numbers. */
     std::map<unsigned int, PathState> bifurcations_;
-    double                    assembly_seconds_ = 0.; // of the meshes before
-    unsigned int              n_refinements_    = 0;
-    bool                      has_warned_of_energy_ = false;
+    double       assembly_seconds_     = 0.; // of the meshes before
+    unsigned int n_refinements_        = 0;
+    bool         has_warned_of_energy_ = false;
   };
 } // namespace Nacre
 
