@@ -10,38 +10,51 @@ namespace Nacre
   ArcLengthStep::ArcLengthStep(ShellSystem  &system,
                                const Vector &u,
                                const double  time,
-                               const Vector &direction,
-                               const double  length,
                                const double  rate_step)
     : system_(system)
     , start_(u)
     , start_time_(time)
-    , direction_(direction)
-    , length_(length)
     , rate_step_(rate_step)
     , u_(u)
     , time_(time)
   {}
 
   void
-  ArcLengthStep::set_predictor(const Vector &predictor)
+  ArcLengthStep::go_along_tangent(const Vector &direction, const double length)
+  {
+    direction_ = &direction;
+    length_    = length;
+  }
+
+  void
+  ArcLengthStep::go_to_plane(const Vector &normal, const double distance)
+  {
+    normal_   = normal;
+    distance_ = distance;
+  }
+
+  void
+  ArcLengthStep::go_along_mode(const Vector &mode)
   {
     // At the point itself the tangent is singular.
-    predictor_     = predictor;
-    has_predictor_ = true;
-    u_ += predictor;
+    normal_    = mode;
+    distance_  = mode * mode;
+    predictor_ = mode;
+    is_first_  = false;
+    u_ += mode;
   }
 
   NewtonSolver::Result
   ArcLengthStep::solve(const NewtonSolver::Parameters &parameters)
   {
+    Assert(direction_ != nullptr || normal_.size() > 0, ExcNotInitialized());
     system_.keep_tangent(false);
     system_.set_time(start_time_);
     auto result =
       NewtonSolver(parameters).solve(u_, [&](const Vector &u, Vector &du) {
         return linearise(u, du);
       });
-    if (!result.converged)
+    if (!result.converged || distance_ == 0.)
       return result;
     Vector change(u_);
     change -= start_;
@@ -55,6 +68,22 @@ namespace Nacre
     return result;
   }
 
+  void
+  ArcLengthStep::set_tangent_plane(const Vector &velocity)
+  {
+    const double norm = velocity.l2_norm();
+    AssertThrow(norm > 0.,
+                ExcMessage("Analysis/Type = arc length: nothing moves the "
+                           "shell: no load and no prescribed displacement "
+                           "depends on t."));
+    const double dt = direction_->l2_norm() == 0. ? length_ :
+                      *direction_ * velocity > 0. ? length_ / norm :
+                                                    -length_ / norm;
+    normal_         = velocity;
+    normal_ *= dt;
+    distance_ = normal_ * normal_;
+  }
+
   NewtonSolver::Step
   ArcLengthStep::linearise(const Vector &u, Vector &du)
   {
@@ -63,34 +92,31 @@ namespace Nacre
       return step;
     const ShellSystem::Rate rate     = system_.rate(u, time_, rate_step_);
     const Vector           &velocity = rate.velocity;
-    double                  dt       = 0.;
-    if (!has_predictor_)
+    if (normal_.size() == 0)
+      set_tangent_plane(velocity);
+    Vector change(u);
+    change -= start_;
+    change += du;
+    const double slope    = normal_ * velocity;
+    const double dt       = (distance_ - normal_ * change) / slope;
+    const double smallest = 1e-12 * normal_.l2_norm() * velocity.l2_norm();
+    if (!(std::abs(slope) > smallest) || !std::isfinite(dt))
       {
-        const double norm = velocity.l2_norm();
-        AssertThrow(norm > 0.,
-                    ExcMessage("Analysis/Type = arc length: nothing moves the "
-                               "shell: no load and no prescribed displacement "
-                               "depends on t."));
-        dt         = direction_.l2_norm() == 0. ? length_ :
-                     direction_ * velocity > 0. ? length_ / norm :
-                                                  -length_ / norm;
-        predictor_ = velocity;
-        predictor_ *= dt;
-        has_predictor_ = true;
+        step.failure = {FailureKind::singular_tangent,
+                        "the path has no tangent to working precision, or the "
+                        "controlled quantity doesn't change along it"};
+        return step;
+      }
+    du.add(dt, velocity);
+    if (is_first_ && distance_ != 0.)
+      {
+        predictor_ = du;
         // The residual is that of equilibrium: what later ones compare with is
         // the work of the step's loads.
         step.work           = dt * dt * rate.work;
         step.round_off_work = 0.;
       }
-    else
-      dt = -(predictor_ * du) / (predictor_ * velocity);
-    if (!std::isfinite(dt))
-      {
-        step.failure = {FailureKind::singular_tangent,
-                        "the path has no tangent to working precision"};
-        return step;
-      }
-    du.add(dt, velocity);
+    is_first_ = false;
     time_ += dt;
     system_.set_time(time_);
     return step;

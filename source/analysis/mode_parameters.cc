@@ -54,7 +54,9 @@ namespace Nacre
       "Following pressures add their load stiffness in all of them but none. "
       "Buckling scales the change from the loads (and 'Load factor', and "
       "prescribed values) at t = 0 to those at t = 1; what they are at t = 0 "
-      "stays. Vibration takes them at t = 1.");
+      "stays. Vibration takes them at t = 1. With 'Start from' the tangent "
+      "at that state is taken, and for buckling its derivative along the path; "
+      "load factors are the t at which it becomes singular.");
     add_parameter("Membrane force",
                   membrane_force_text_,
                   "'N11, N22, N12', expressions of x, y, z, t, tension "
@@ -81,6 +83,7 @@ namespace Nacre
 
   ModeOptions
   ModeParameters::make(const AnalysisType type,
+                       const bool         has_start,
                        const Constants   &constants) const
   {
     ModeOptions options;
@@ -93,6 +96,10 @@ namespace Nacre
                                               PrestressKind::linear :
                                               PrestressKind::none);
     check_use(type);
+    AssertThrow(!has_start || !prestress_,
+                ExcMessage("Analysis/Prestress: the state of 'Analysis/Start "
+                           "from' says what the stiffness takes; leave "
+                           "'Prestress' out."));
     const std::string force_text = Text::trim(membrane_force_text_).empty() ?
                                      "0, 0, 0" :
                                      membrane_force_text_;

@@ -20,6 +20,9 @@ namespace Nacre
           case AnalysisType::arc_length:
             return "a finer mesh or a smaller 'Analysis/Maximum time step' "
                    "where the path turns sharply";
+          case AnalysisType::displacement_control:
+            return "'Type = arc length' where the controlled quantity turns "
+                   "back, or a smaller 'Analysis/Control step'";
           case AnalysisType::relaxation:
             return "'Type = dynamic'";
           default:

@@ -5,6 +5,7 @@
 #include <nacre/base/text.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace Nacre
 {
@@ -21,6 +22,19 @@ namespace Nacre
                              "' is not positive."));
       return value;
     }
+
+    /** Of a path along which t rises and falls. */
+    double
+    nonzero(const std::string &text,
+            const std::string &name,
+            const Constants   &constants)
+    {
+      const double value = evaluate_number(text, "Analysis/" + name, constants);
+      AssertThrow(value != 0.,
+                  ExcMessage("Analysis/" + name + ": '" + text +
+                             "' is zero; give a number other than that."));
+      return value;
+    }
   } // namespace
 
   namespace
@@ -28,22 +42,124 @@ namespace Nacre
     void
     check_arc_length(const PathParameters &path)
     {
+      const std::string type = "Type = " + name_of(path.type);
       AssertThrow(path.output_times.empty(),
-                  ExcMessage("Analysis/Output times: with Type = arc length "
-                             "t isn't prescribed; leave them out."));
+                  ExcMessage("Analysis/Output times: with " + type +
+                             " t isn't prescribed; leave them out."));
       AssertThrow(!path.keeps_tangent(),
                   ExcMessage("Analysis/Tangent updates: 'every step' doesn't "
-                             "follow a path with arc length; choose 'every "
-                             "iteration'."));
+                             "follow a path with " +
+                             type + "; choose 'every iteration'."));
       AssertThrow(path.line_search != LineSearch::always,
                   ExcMessage("Analysis/Line search: 'always' has no meaning "
-                             "with Type = arc length, whose load changes with "
-                             "the iterations; choose 'automatic' or 'never'."));
+                             "with " +
+                             type +
+                             ", whose load changes with the iterations; "
+                             "choose 'automatic' or 'never'."));
       AssertThrow(path.newton.damping == 1.,
-                  ExcMessage("Analysis/Damping of iterations: Type = arc "
-                             "length takes whole increments; choose 1."));
+                  ExcMessage("Analysis/Damping of iterations: " + type +
+                             " takes whole increments; choose 1."));
+    }
+
+    const std::string branch_form =
+      "write 'none', 'all', or numbers such as '0, 1, -1'";
+
+    BranchChoice
+    read_branches(const std::string &text)
+    {
+      const std::string where = "Analysis/Switch branch";
+      BranchChoice      choice;
+      choice.all = Text::trim(text) == "all";
+      if (choice.all || Text::trim(text) == "none")
+        return choice;
+      for (const auto &item : Text::split(text, ',', where))
+        {
+          std::size_t n_read = 0;
+          int         number = 0;
+          try
+            {
+              number = std::stoi(item, &n_read);
+            }
+          catch (const std::exception &)
+            {
+              n_read = 0;
+            }
+          AssertThrow(n_read > 0 && n_read == item.size(),
+                      ExcMessage(where + ": '" + item + "' is no number; " +
+                                 branch_form + "."));
+          AssertThrow(std::count(choice.numbers.begin(),
+                                 choice.numbers.end(),
+                                 number) == 0,
+                      ExcMessage(where + ": '" + item +
+                                 "' is listed twice; leave one out."));
+          choice.numbers.push_back(number);
+        }
+      // The primary path is followed first.
+      std::stable_partition(choice.numbers.begin(),
+                            choice.numbers.end(),
+                            [](const int number) { return number == 0; });
+      return choice;
+    }
+
+    std::vector<PathBound>
+    read_bounds(const std::string &text, const Constants &constants)
+    {
+      const std::string      where = "Analysis/Stop where";
+      std::vector<PathBound> bounds;
+      for (const auto &item : Text::split(text, ',', where))
+        {
+          const auto sign = item.find_first_of("<>");
+          AssertThrow(sign != std::string::npos && sign > 0 &&
+                        sign + 1 < item.size() && item[sign + 1] != '=',
+                      ExcMessage(where + ": '" + item +
+                                 "' is not of the form 'QUANTITY < NUMBER' or "
+                                 "'QUANTITY > NUMBER'."));
+          bounds.push_back(
+            {Text::unquoted(item.substr(0, sign)),
+             item[sign] == '<',
+             evaluate_number(item.substr(sign + 1), where, constants)});
+        }
+      return bounds;
     }
   } // namespace
+
+  bool
+  BranchChoice::has_primary() const
+  {
+    return all || numbers.empty() ||
+           std::count(numbers.begin(), numbers.end(), 0) > 0;
+  }
+
+  unsigned int
+  BranchChoice::n_bifurcations() const
+  {
+    int largest = 0;
+    for (const int number : numbers)
+      largest = std::max(largest, std::abs(number));
+    return largest;
+  }
+
+  std::vector<int>
+  BranchChoice::branches(const unsigned int n_found) const
+  {
+    const int        n = static_cast<int>(n_found);
+    std::vector<int> result;
+    if (all)
+      for (int number = 1; number <= n; ++number)
+        result.insert(result.end(), {number, -number});
+    for (const int number : numbers)
+      if (number != 0 && std::abs(number) <= n)
+        result.push_back(number);
+    return result;
+  }
+
+  std::string
+  PathBound::text() const
+  {
+    std::ostringstream text;
+    text << quantity << (is_below ? " < " : " > ") << value;
+    return text.str();
+  }
 
   const Selection<AnalysisType> &
   selection(AnalysisType)
@@ -53,6 +169,7 @@ namespace Nacre
       {AnalysisType::quasi_static, "static"},
       {AnalysisType::relaxation, "relaxation"},
       {AnalysisType::arc_length, "arc length"},
+      {AnalysisType::displacement_control, "displacement control"},
       {AnalysisType::dynamic, "dynamic"},
       {AnalysisType::buckling, "buckling"},
       {AnalysisType::vibration, "vibration"}};
@@ -86,18 +203,21 @@ namespace Nacre
                   "linear: one solve; static: equilibria along a load path, by "
                   "Newton's method; relaxation: the same, and by dynamic "
                   "relaxation where the path is unstable; arc length: along "
-                  "the path, with a time that rises and falls; dynamic: motion "
+                  "the path, with a time that rises and falls; displacement "
+                  "control: the same, by steps of 'Control'; dynamic: motion "
                   "in time; buckling: load factors at which the linear state "
                   "loses its stability, with their modes; vibration: natural "
-                  "frequencies and modes. static, relaxation, arc length and "
-                  "dynamic take the kinematics of "
+                  "frequencies and modes. static, relaxation, arc length, "
+                  "displacement control and dynamic take the kinematics of "
                   "'Discretization/Kinematics'.");
     add_parameter("Start from",
                   steps_.start_from,
                   "Another run's last checkpoint, 'output/NAME', whose "
                   "displacements, and in dynamics velocities, are the start of "
                   "this path at t = 0: on the same mesh, under any loads, "
-                  "supports, section and Type. A relative name starts from the "
+                  "supports, section and Type. Buckling and vibration are "
+                  "those of that state, under the loads at its t. A relative "
+                  "name starts from the "
                   "current folder. Empty: the undeformed shell at rest.");
     add_parameter("Load factor",
                   load_factor_text_,
@@ -105,14 +225,16 @@ namespace Nacre
                   "t; default: t, in dynamics 1. Units: none.");
     add_parameter("End time",
                   end_time_text_,
-                  "The path is followed from t = 0 to here. Units: time (in "
-                  "statics: none).");
+                  "The path is followed from t = 0 to here; with arc length it "
+                  "may be negative, and displacement control doesn't use it. "
+                  "Units: time (in statics: none).");
     add_parameter(
       "Time step",
       time_step_text_,
       "Steps end at its multiples. A step that fails is halved; after two "
-      "good ones it grows again, and the path is back on the multiples. "
-      "Units: as End time.");
+      "good ones it grows again, and the path is back on the multiples. With "
+      "arc length the first step's change of t; a negative one begins "
+      "downward. Units: as End time.");
     add_parameter("Minimum time step",
                   minimum_time_step_text_,
                   "A step that would become smaller ends the run; default: "
@@ -122,19 +244,7 @@ namespace Nacre
                   "Steps that converge easily grow up to here, and leave "
                   "multiples of Time step out; default: Time step. Units: as "
                   "End time.");
-    add_parameter("Maximum steps",
-                  steps_.maximum_steps,
-                  "An arc-length path ends after so many steps if it hasn't "
-                  "reached the End time.",
-                  prm,
-                  Patterns::Integer(1));
-    add_parameter("Switch branch",
-                  steps_.switch_branch,
-                  "k: at the k-th bifurcation point since its start or restart "
-                  "an arc-length path goes on along the branch that leaves "
-                  "there, in the direction of the mode whose largest "
-                  "displacement is along +x, +y or +z; -k: the other way; 0: "
-                  "it stays on its branch.");
+    declare_curve();
     add_parameter("Output times",
                   output_times_text_,
                   "'t1, t2, ...': steps end at these times, too, exactly, and "
@@ -209,6 +319,57 @@ namespace Nacre
                   "--restart'; 0: never.");
   }
 
+  void
+  AnalysisParameters::declare_curve()
+  {
+    add_parameter("Maximum steps",
+                  steps_.maximum_steps,
+                  "A path with arc length or displacement control ends after "
+                  "so many steps if it hasn't reached its end.",
+                  prm,
+                  Patterns::Integer(1));
+    add_parameter("Maximum points",
+                  steps_.maximum_points,
+                  "It ends after so many limit and bifurcation points, each "
+                  "branch after so many of its own; 0: any number.",
+                  prm,
+                  Patterns::Integer(0));
+    add_parameter(
+      "Stop where",
+      stop_where_text_,
+      "'NAME < NUMBER, NAME > NUMBER, ...': a path of any Type ends "
+      "after the first step in which one of these holds of the "
+      "quantity NAME of 'Quantities', the 'load factor' or 't'. "
+      "Units: those of the quantity.");
+    add_parameter(
+      "Switch branch",
+      switch_branch_text_,
+      "Branches of a path with arc length or displacement control. "
+      "none: it stays on the primary path. k: at the k-th "
+      "bifurcation point it goes on along the branch that leaves "
+      "there, in the direction of the mode whose largest "
+      "displacement is along +x, +y or +z; -k: the other way. all, "
+      "or several numbers, 'k, -k, ...': each branch is a path with "
+      "files of its own, NAME_branchK; 0: the primary path is "
+      "followed to its end, too.");
+    add_parameter("Control",
+                  control_text_,
+                  "With displacement control: the name of the quantity that is "
+                  "prescribed in steps, a displacement at a point.");
+    add_parameter(
+      "Control values",
+      control_values_text_,
+      "'q1, q2, ...': the quantity goes from its value at the start "
+      "to q1, then to q2, ..., where the path ends. Units: those of "
+      "Control.");
+    add_parameter("Control step",
+                  control_step_text_,
+                  "Size of its steps; they are halved and grow between the "
+                  "same multiples of it as 'Minimum' and 'Maximum time step' "
+                  "are of 'Time step'; default: a tenth of the largest of the "
+                  "Control values. Units: those of Control.");
+  }
+
   PathParameters
   AnalysisParameters::make(const Constants &constants) const
   {
@@ -216,14 +377,68 @@ namespace Nacre
     static_cast<StepParameters &>(path) = steps_;
     read_times(constants, path);
     read_start(constants, path);
-    if (path.type == AnalysisType::arc_length)
+    read_curve(constants, path);
+    if (path.follows_curve())
       check_arc_length(path);
-    else
-      AssertThrow(path.switch_branch == 0,
-                  ExcMessage(
-                    "Analysis/Switch branch: Type = " + name_of(path.type) +
-                    " finds no branches; choose 'arc length', or 0."));
     return path;
+  }
+
+  void
+  AnalysisParameters::read_curve(const Constants &constants,
+                                 PathParameters  &path) const
+  {
+    path.bounds   = read_bounds(stop_where_text_, constants);
+    path.branches = read_branches(switch_branch_text_);
+    path.control  = Text::unquoted(control_text_);
+    for (const auto &text :
+         Text::split(control_values_text_, ',', "Analysis/Control values"))
+      path.control_values.push_back(
+        evaluate_number(text, "Analysis/Control values", constants));
+    check_use(path);
+    if (!path.controls_displacement())
+      return;
+    double largest = 0.;
+    for (const double value : path.control_values)
+      largest = std::max(largest, std::abs(value));
+    path.control_step =
+      control_step_text_ != "default" ?
+        positive(control_step_text_, "Control step", constants) :
+        0.1 * largest;
+    AssertThrow(path.control_step > 0.,
+                ExcMessage("Analysis/Control step: the Control values are all "
+                           "0; give the size of the steps."));
+  }
+
+  void
+  AnalysisParameters::check_use(const PathParameters &path) const
+  {
+    const std::string type = "Type = " + name_of(path.type);
+    AssertThrow(path.follows_curve() ||
+                  (path.branches.numbers.empty() && !path.branches.all),
+                ExcMessage("Analysis/Switch branch: " + type +
+                           " finds no branches; choose 'arc length' or "
+                           "'displacement control', or none."));
+    AssertThrow(path.follows_curve() || path.maximum_points == 0,
+                ExcMessage("Analysis/Maximum points: " + type +
+                           " finds no points; choose 'arc length' or "
+                           "'displacement control', or 0."));
+    AssertThrow(path.bounds.empty() ||
+                  (!path.is_linear() && !seeks_modes(path.type)),
+                ExcMessage("Analysis/Stop where: " + type +
+                           " follows no path; leave it out."));
+    const bool has_control = !path.control.empty() ||
+                             !path.control_values.empty() ||
+                             control_step_text_ != "default";
+    AssertThrow(path.controls_displacement() || !has_control,
+                ExcMessage(
+                  "Analysis/Control, Control values, Control step: " + type +
+                  " controls no quantity; choose 'displacement "
+                  "control', or leave them out."));
+    AssertThrow(!path.controls_displacement() ||
+                  (!path.control.empty() && !path.control_values.empty()),
+                ExcMessage("Analysis/Control: " + type +
+                           " needs the name of a quantity, and 'Control "
+                           "values' to go to, such as '-30'."));
   }
 
   Expression
@@ -242,8 +457,14 @@ namespace Nacre
   AnalysisParameters::read_times(const Constants &constants,
                                  PathParameters  &path) const
   {
-    path.end_time  = positive(end_time_text_, "End time", constants);
-    path.time_step = positive(time_step_text_, "Time step", constants);
+    const bool is_curve = path.follows_curve();
+    path.end_time  = is_curve ? nonzero(end_time_text_, "End time", constants) :
+                                positive(end_time_text_, "End time", constants);
+    path.time_step = is_curve ?
+                       nonzero(time_step_text_, "Time step", constants) :
+                       positive(time_step_text_, "Time step", constants);
+    path.begins_downward = path.time_step < 0.;
+    path.time_step       = std::abs(path.time_step);
     path.minimum_time_step =
       minimum_time_step_text_ == "default" ?
         1e-3 * path.time_step :
@@ -292,8 +513,7 @@ namespace Nacre
                              " doesn't use it; choose 'Type = dynamic', or "
                              "leave it out."));
     path.start_from = Text::trim(path.start_from);
-    AssertThrow((!path.is_linear() && !seeks_modes(path.type)) ||
-                  path.start_from.empty(),
+    AssertThrow(!path.is_linear() || path.start_from.empty(),
                 ExcMessage("Analysis/Start from: Type = " + name_of(path.type) +
                            " solves from the undeformed shell; choose another "
                            "Type."));

@@ -32,6 +32,17 @@ namespace Nacre
         }
       return n;
     }
+
+    /**
+     * Of central differences along a displacement whose gradient is at most
+     * @p gradient: small to the state, large to round-off. With no gradient
+     * only initial strains change.
+     */
+    double
+    difference_step(const double gradient)
+    {
+      return gradient > 0. ? 1e-3 / gradient : 1.;
+    }
   } // namespace
 
   Prestress::Prestress(const Discretization &discretization,
@@ -269,27 +280,85 @@ namespace Nacre
     parts.kinematics.tangent = TangentType::consistent;
     const Assembly finite(discretization_, parts);
     const Instant  instant = model_.at(time);
-    Matrix         tangent;
-    finite.reinit_matrix(constraints_, tangent);
+    differentiate(
+      finite,
+      [&](const double place) {
+        Vector state(u);
+        state *= place;
+        return std::make_pair(state,
+                              Instant{instant.time, place * instant.factor});
+      },
+      difference_step(gradient),
+      factor,
+      matrix);
+  }
+
+  void
+  Prestress::assemble_tangent(const Vector &u,
+                              const double  time,
+                              Matrix       &K) const
+  {
+    assembly_.reinit_matrix(constraints_, K);
+    Vector unused(discretization_.locally_owned_dofs(),
+                  discretization_.communicator());
+    assembly_.assemble(u,
+                       assembly_.actions(model_.at(time)),
+                       constraints_,
+                       K,
+                       unused);
+  }
+
+  void
+  Prestress::add_tangent_rate(const Vector &u,
+                              const Vector &velocity,
+                              const double  time,
+                              const double  factor,
+                              Matrix       &matrix) const
+  {
+    const double gradient = largest_gradient(velocity);
+    AssertThrow(gradient > 0. || model_.section.has_initial_strain(),
+                ExcMessage("Analysis/Start from: no load and no prescribed "
+                           "displacement depends on t at that state, so that "
+                           "nothing makes it buckle."));
+    differentiate(
+      assembly_,
+      [&](const double place) {
+        Vector state(u);
+        state.add(place, velocity);
+        return std::make_pair(state, model_.at(time + place));
+      },
+      difference_step(gradient),
+      factor,
+      matrix);
+    matrix.compress(VectorOperation::add);
+    clear_constrained(matrix);
+  }
+
+  void
+  Prestress::differentiate(const Assembly &assembly,
+                           const Line     &line,
+                           const double    step,
+                           const double    factor,
+                           Matrix         &matrix) const
+  {
+    Matrix tangent;
+    assembly.reinit_matrix(constraints_, tangent);
     Vector unused(discretization_.locally_owned_dofs(),
                   discretization_.communicator());
     // Central differences of two steps, extrapolated: the error is of the
     // fourth order in displacement gradients of size 1e-3.
-    const double                    step = gradient > 0. ? 1e-3 / gradient : 1.;
     const std::pair<double, double> stencil[] = {{1., 2. / 3.},
                                                  {-1., -2. / 3.},
                                                  {2., -1. / 12.},
                                                  {-2., 1. / 12.}};
     for (const auto &[place, weight] : stencil)
       {
-        Vector state(u);
-        state *= place * step;
-        finite.assemble(state,
-                        finite.actions(
-                          {instant.time, place * step * instant.factor}),
-                        constraints_,
-                        tangent,
-                        unused);
+        const auto [state, instant] = line(place * step);
+        assembly.assemble(state,
+                          assembly.actions(instant),
+                          constraints_,
+                          tangent,
+                          unused);
         matrix.add(factor * weight / step, tangent);
       }
   }

@@ -351,9 +351,11 @@ namespace Nacre
 
   ShellFields::ShellFields(const ShellState          &state,
                            const std::vector<double> &error_indicators,
-                           const unsigned int         n_subdivisions)
+                           const unsigned int         n_subdivisions,
+                           const TrilinosWrappers::MPI::Vector *mode)
     : n_layers_(state.model.section.n_layers())
     , has_error_indicators_(!error_indicators.empty())
+    , has_mode_(mode != nullptr)
   {
     const Discretization &discretization = state.discretization;
     const bool            triangles =
@@ -367,6 +369,10 @@ namespace Nacre
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
         Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
     CellResults        results(state, points, true);
+    const ShellState   moved{discretization,
+                           state.model,
+                           has_mode_ ? *mode : state.displacement};
+    StrainValues       mode_values(moved, points);
     const auto         list         = fields(n_layers_);
     const unsigned int n_components = get_dataset_names().size();
     const double       rank =
@@ -377,6 +383,8 @@ namespace Nacre
       if (cell->is_locally_owned())
         {
           results.reinit(cell);
+          if (has_mode_)
+            mode_values.reinit(cell);
           Patch patch;
           patch.patch_index          = patches_.size();
           patch.reference_cell       = cell->reference_cell();
@@ -394,6 +402,8 @@ namespace Nacre
               if (has_error_indicators_)
                 patch.data(row++, q) =
                   error_indicators[cell->active_cell_index()];
+              for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
+                patch.data(row++, q) = mode_values.displacement(q)[c];
               for (unsigned int c = 0; c < spacedim; ++c)
                 patch.data(row++, q) = results.position(q)[c];
             }
@@ -426,6 +436,8 @@ namespace Nacre
     names.push_back("rank");
     if (has_error_indicators_)
       names.push_back("error_indicator");
+    if (has_mode_)
+      names.insert(names.end(), spacedim, "mode");
     return names;
   }
 
@@ -444,6 +456,12 @@ namespace Nacre
                               field.interpretation);
         first += field.n_components;
       }
+    first += has_error_indicators_ ? 2 : 1;
+    if (has_mode_)
+      ranges.emplace_back(first,
+                          first + spacedim - 1,
+                          "mode",
+                          Interpretation::component_is_part_of_vector);
     return ranges;
   }
 
@@ -490,10 +508,11 @@ namespace Nacre
     run_on_all_ranks(communicator, [&] {
       fields = std::make_unique<ShellFields>(state,
                                              error_indicators,
-                                             options_.n_subdivisions);
+                                             options_.n_subdivisions,
+                                             entry.mode);
     });
     const std::string base    = name + "_" + entry.label;
-    const std::string all     = path_of(folder, name);
+    const std::string all     = path_of(folder, name + entry.list);
     const bool        is_hdf5 = (options_.format == FieldFormat::hdf5);
     FieldRecords     &records = records_[all];
     records[entry.counter]    = {
@@ -530,7 +549,7 @@ namespace Nacre
       fields = std::make_unique<ThickFields>(state, options_.n_subdivisions);
     });
     const std::string base    = name + "_thick";
-    const std::string all     = path_of(folder, base);
+    const std::string all     = path_of(folder, base + entry.list);
     FieldRecords     &records = records_[all];
     records[entry.counter]    = {entry.time,
                                  write_vtu_files(*fields,

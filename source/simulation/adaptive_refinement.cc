@@ -150,12 +150,12 @@ namespace Nacre
                            "Cycles: 'Analysis/Type = " + name_of(path.type) +
                            "' has no estimate; it is for a linear analysis "
                            "and static paths: set it to 0."));
-    AssertThrow(path.type != AnalysisType::arc_length,
+    AssertThrow(!path.branches.has_several(),
                 ExcMessage(
                   section +
-                  "Cycles: Type = arc length keeps its mesh, since its "
-                  "direction belongs to it; set it to 0, or "
-                  "'Analysis/Type' to static."));
+                  "Cycles: several branches begin on the meshes of their "
+                  "points, which aren't kept; set it to 0, or name one branch "
+                  "in 'Analysis/Switch branch'."));
     AssertThrow(path.is_linear() || estimator_ == EstimatorType::residual,
                 ExcMessage(section +
                            "Estimator: 'goal' is for linear analyses only; "

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace Nacre
 {
@@ -31,7 +32,7 @@ namespace Nacre
     check_number(Utilities::MPI::sum(
       free_dofs(shell, prestress.constraints()).n_elements(),
       communicator_));
-    AssertThrow(prestress.acts(1.),
+    AssertThrow(start() != nullptr || prestress.acts(1.),
                 ExcMessage("Loads: nothing acts on the shell at t = 1; "
                            "'Analysis/Type = buckling' needs a load, a "
                            "prescribed displacement, or 'Prestress = membrane "
@@ -74,22 +75,52 @@ namespace Nacre
                            "that are sought."));
   }
 
+  void
+  BucklingAnalysis::assemble_at_start(const DiscreteShell &shell,
+                                      const Prestress     &prestress,
+                                      Matrix              &K,
+                                      Matrix              &G,
+                                      Modes               &modes) const
+  {
+    CpuTimer timer(communicator_);
+    prestress.assemble_tangent(start()->u, start()->time, K);
+    shell.assembly().reinit_matrix(prestress.constraints(), G);
+    prestress.add_tangent_rate(start()->u,
+                               start()->velocity,
+                               start()->time,
+                               -1.,
+                               G);
+    modes.state = start()->u;
+    modes.assembly += timer.lap();
+    std::ostringstream text;
+    text << "The tangent and its rate are those at t = " << start()->time
+         << "; load factors are values of t.";
+    modes.notes.push_back(text.str());
+  }
+
   ModeAnalysis::Modes
   BucklingAnalysis::find_modes(DiscreteShell   &shell,
                                const Prestress &prestress) const
   {
     Modes  modes;
     Matrix K, G;
-    assemble(shell, prestress, K, G, modes);
+    if (start() != nullptr)
+      assemble_at_start(shell, prestress, K, G, modes);
+    else
+      assemble(shell, prestress, K, G, modes);
     Eigenproblem problem(K,
                          G,
                          false,
                          free_dofs(shell, prestress.constraints()));
     double       zero = 0.;
     AssertThrow(problem.count_below(zero) == 0,
-                ExcMessage("The shell is unstable without the loads that are "
-                           "scaled: the stiffness with those at t = 0 is not "
-                           "positive definite. Make them smaller."));
+                ExcMessage(start() != nullptr ?
+                             "Analysis/Start from: that state is unstable; "
+                             "take one before the first limit or bifurcation "
+                             "point." :
+                             "The shell is unstable without the loads that are "
+                             "scaled: the stiffness with those at t = 0 is not "
+                             "positive definite. Make them smaller."));
     const FactorSign sign = problem_.modes.sign;
     if (sign != FactorSign::negative)
       add_modes(problem, 1., modes);
@@ -116,8 +147,8 @@ namespace Nacre
     std::vector<unsigned int> order(modes.vectors.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) {
-      return std::abs(modes.values.values[i]) <
-             std::abs(modes.values.values[j]);
+      return std::abs(modes.values.values[i] - origin()) <
+             std::abs(modes.values.values[j] - origin());
     });
     order.resize(std::min<std::size_t>(order.size(), problem_.modes.n_modes));
     modes.vectors               = reordered(modes.vectors, order);
@@ -133,9 +164,11 @@ namespace Nacre
     const auto           &range = problem_.modes.range;
     std::optional<double> upper;
     if (range)
-      upper = range->second;
+      upper = std::max(sign * (range->second - origin()), 0.);
+    const double lower =
+      range ? std::max(sign * (range->first - origin()), 0.) : 0.;
     Spectrum spectrum =
-      problem.find_above(range ? range->first : 0.,
+      problem.find_above(lower,
                          problem_.modes.n_modes,
                          upper,
                          problem_.modes.multiplicity_tolerance);
@@ -145,15 +178,16 @@ namespace Nacre
       modes.notes.push_back("There are no " + name +
                             ": that way nothing buckles.");
     else
-      modes.notes.push_back(counted_in_words(spectrum,
-                                             name,
-                                             spectrum.counted.first,
-                                             spectrum.counted.second));
+      modes.notes.push_back(
+        counted_in_words(spectrum,
+                         name,
+                         origin() + sign * spectrum.counted.first,
+                         origin() + sign * spectrum.counted.second));
     modes.values.n_below = spectrum.n_below;
     const auto counts    = multiplicities(spectrum.values);
     for (unsigned int k = 0; k < spectrum.values.size(); ++k)
       {
-        modes.values.values.push_back(sign * spectrum.values[k]);
+        modes.values.values.push_back(origin() + sign * spectrum.values[k]);
         modes.values.multiplicities.push_back(counts[k]);
         modes.vectors.push_back(std::move(spectrum.modes[k]));
       }

@@ -29,7 +29,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 3";
+    const std::string layout = "nacre checkpoint 4";
 
     std::array<Vector *, 3>
     vectors_of(CheckpointData &data)
@@ -46,7 +46,9 @@ namespace Nacre
       PathState &s = data.state;
       archive &s.step &s.time &s.next_step &s.n_good_steps &s.load_factor &s
         .iterations &s.residual &s.n_negative_pivots;
-      EnergyBalance             &b = s.balance;
+      archive &s.n_points &s.n_bifurcations &s.branch &s.begins_branch &s
+        .n_controls;
+      EnergyBalance &b = s.balance;
       archive &b.is_kept &b.kinetic &b.strain &b.initial &b.external_work &b
         .prescribed_work &b.dissipation &b.largest;
       archive                           &data.written_fields;

@@ -40,22 +40,22 @@ namespace Nacre
   } // namespace
 
   DisplacementTransfer::DisplacementTransfer(
-    const Discretization    &discretization,
-    const Vector            &displacement,
-    const std::vector<bool> &marked)
+    const Discretization              &discretization,
+    const std::vector<const Vector *> &fields,
+    const std::vector<bool>           &marked)
     : fe_(discretization.dof_handler().get_fe().clone())
     , dof_handler_(discretization.triangulation())
     , marked_(marked)
   {
     dof_handler_.distribute_dofs(*fe_);
-    Vector owned(dof_handler_.locally_owned_dofs(),
-                 dof_handler_.get_communicator());
-    copy_by_cell(discretization.dof_handler(),
-                 displacement,
-                 dof_handler_,
-                 owned);
-    values_ = ghosted_vector();
-    values_ = owned;
+    for (const Vector *const field : fields)
+      {
+        Vector owned(dof_handler_.locally_owned_dofs(),
+                     dof_handler_.get_communicator());
+        copy_by_cell(discretization.dof_handler(), *field, dof_handler_, owned);
+        values_.push_back(ghosted_vector());
+        values_.back() = owned;
+      }
   }
 
   DisplacementTransfer::Vector
@@ -77,23 +77,33 @@ namespace Nacre
         cell->set_refine_flag();
     mesh.prepare_coarsening_and_refinement();
     transfer_ = std::make_unique<Transfer>(dof_handler_);
-    transfer_->prepare_for_coarsening_and_refinement(values_);
+    std::vector<const Vector *> before;
+    for (const Vector &values : values_)
+      before.push_back(&values);
+    transfer_->prepare_for_coarsening_and_refinement(before);
     mesh.execute_coarsening_and_refinement();
     dof_handler_.distribute_dofs(*fe_);
-    Vector owned(dof_handler_.locally_owned_dofs(),
-                 dof_handler_.get_communicator());
-    transfer_->interpolate(owned);
-    values_ = ghosted_vector();
-    values_ = owned;
+    std::vector<Vector>   owned(values_.size(),
+                              Vector(dof_handler_.locally_owned_dofs(),
+                                     dof_handler_.get_communicator()));
+    std::vector<Vector *> after;
+    for (Vector &values : owned)
+      after.push_back(&values);
+    transfer_->interpolate(after);
+    for (unsigned int k = 0; k < owned.size(); ++k)
+      {
+        values_[k] = ghosted_vector();
+        values_[k] = owned[k];
+      }
   }
 
   DisplacementTransfer::Vector
-  DisplacementTransfer::displacement_on(
-    const Discretization &discretization) const
+  DisplacementTransfer::field_on(const Discretization &discretization,
+                                 const unsigned int    k) const
   {
     Vector owned(discretization.locally_owned_dofs(),
                  discretization.communicator());
-    copy_by_cell(dof_handler_, values_, discretization.dof_handler(), owned);
+    copy_by_cell(dof_handler_, values_[k], discretization.dof_handler(), owned);
     discretization.hanging_node_constraints().distribute(owned);
     return owned;
   }

@@ -6,6 +6,7 @@
 #include <nacre/base/output_file.h>
 #include <nacre/postprocess/node_values.h>
 #include <nacre/simulation/mode_analysis.h>
+#include <nacre/simulation/path_start.h>
 
 #include <cmath>
 #include <iomanip>
@@ -76,7 +77,45 @@ namespace Nacre
                               shell.assembly(),
                               problem_.model,
                               problem_.modes);
+    load_start_state(shell, recorder);
     check_problem(shell, prestress);
+  }
+
+  void
+  ModeAnalysis::load_start_state(DiscreteShell &shell, const Recorder &recorder)
+  {
+    const PathParameters &path = problem_.path;
+    if (path.start_from.empty())
+      return;
+    PathState state = load_start(path,
+                                 current_problem(communicator_),
+                                 shell.discretization(),
+                                 mode_files(recorder).file(""),
+                                 log_)
+                        .state;
+    ShellSystem system(shell.discretization(),
+                       shell.assembly(),
+                       problem_.model,
+                       shell.solver());
+    auto found = find_equilibrium(path, system, state, state.time, false);
+    AssertThrow(found.result.converged,
+                ExcMessage("Analysis/Start from: under the loads and supports "
+                           "of this file at its t = " +
+                           std::to_string(state.time) +
+                           " that state isn't near an equilibrium: " +
+                           found.result.reason +
+                           ". Take those of the run that it is of."));
+    const Vector &u    = found.motion.u;
+    Vector        du   = shell.owned_vector();
+    const auto    step = system.solve_linearised(u, du);
+    AssertThrow(step.failure.kind == FailureKind::none,
+                ExcMessage("Analysis/Start from: in that state " +
+                           step.failure.text +
+                           ". Take one a little before it."));
+    const auto rate = system.rate(u, state.time, 0.01 * path.time_step);
+    start_.emplace(StartState{system.with_ghosts(u),
+                              system.with_ghosts(rate.velocity),
+                              state.time});
   }
 
   void
@@ -93,13 +132,14 @@ namespace Nacre
     record.eta    = shell.assembly().penalty().eta();
     record.solver = "direct";
     recorder.check_quantities(shell.discretization());
+    load_start_state(shell, recorder);
     check_problem(shell, prestress);
     const Modes modes = find_modes(shell, prestress);
     record.assembly   = modes.assembly;
     record.solve      = timer.lap() - record.assembly;
 
     const ShellActions actions =
-      shell.assembly().actions(problem_.model.at(1.));
+      shell.assembly().actions(problem_.model.at(start_ ? start_->time : 1.));
     Vector            residual = shell.owned_vector();
     const SolvedShell solved{
       {shell.discretization(), problem_.model, modes.state, actions.loads},
@@ -184,10 +224,16 @@ namespace Nacre
         const unsigned int number = modes.values.n_below + k + 1;
         const Vector       mode =
           scaled_mode(modes.vectors[k], prestress.constraints(), shell);
-        output.write({shell.discretization(), problem_.model, mode},
+        VtuOutput::Entry entry(number, number, "mode" + std::to_string(number));
+        // Finite strains of a mode mean nothing: it stands beside the state.
+        if (start_)
+          entry.mode = &mode;
+        output.write({shell.discretization(),
+                      problem_.model,
+                      start_ ? start_->u : mode},
                      options.folder,
                      options.name,
-                     {number, double(number), "mode" + std::to_string(number)});
+                     entry);
         write_node_values({shell.discretization(), problem_.model, mode},
                           options.file("_mode" + std::to_string(number) +
                                        ".csv"));

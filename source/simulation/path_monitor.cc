@@ -4,6 +4,7 @@
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
+#include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/simulation/path_monitor.h>
 
@@ -17,6 +18,8 @@ namespace Nacre
 {
   PathMonitor::PathMonitor(const MPI_Comm              communicator,
                            const OutputOptions        &options,
+                           const std::string          &points_csv,
+                           const int                   branch,
                            const PathParameters       &path,
                            const QuantitiesOfInterest &quantities,
                            Checkpoint                 &checkpoint,
@@ -24,6 +27,8 @@ namespace Nacre
                            Log                        &log)
     : communicator_(communicator)
     , options_(options)
+    , points_csv_(points_csv)
+    , branch_(branch)
     , path_(path)
     , grid_(path.time_grid())
     , quantities_(quantities)
@@ -31,6 +36,7 @@ namespace Nacre
     , checkpoint_steps_(saves ? path.checkpoint_steps : 0)
     , log_(log)
     , vtu_output_(options.fields)
+    , point_output_(options.fields)
   {}
 
   std::string
@@ -48,30 +54,64 @@ namespace Nacre
   {
     written_         = CheckpointData();
     written_.problem = problem;
-    run_on_root(communicator_, [&]() {
-      std::filesystem::remove(options_.file("_points.csv"));
-    });
   }
 
   namespace
   {
-    /**
-     * The header of a table of steps and its rows up to @p last_step: those
-     * after a checkpoint will be written again.
-     */
+    /** The header of a table and those of its rows that @p keeps. */
+    template <typename Predicate>
     std::pair<std::string, std::string>
-    read_rows(const std::string &csv, const unsigned int last_step)
+    read_rows(const std::string &csv, const Predicate &keeps)
     {
       std::ifstream      in(csv);
       std::string        header, line;
       std::ostringstream rows;
       std::getline(in, header);
       while (std::getline(in, line))
-        if (std::strtoul(line.c_str(), nullptr, 10) <= last_step)
+        if (keeps(line))
           rows << line << '\n';
       return {header, rows.str()};
     }
   } // namespace
+
+  std::string
+  PathMonitor::point_file(const OutputOptions &options,
+                          const unsigned int   number)
+  {
+    return options.file("_point" + std::to_string(number));
+  }
+
+  void
+  PathMonitor::resume_points(const PathState &state)
+  {
+    FieldRecords records;
+    run_on_root(communicator_, [&]() {
+      if (!std::filesystem::exists(points_csv_))
+        return;
+      // Points after the checkpoint will be found again.
+      const auto table = read_rows(points_csv_, [&](const std::string &line) {
+        const auto cells  = Text::split(line, ',', points_csv_);
+        const bool is_own = !path_.branches.has_several() ||
+                            cells.at(0) == std::to_string(branch_);
+        const auto number = std::stoul(cells.at(1));
+        if (is_own && number > state.n_points)
+          return false;
+        for (const auto *const ending : {".vtu", ".pvtu", ".h5"})
+          if (const std::filesystem::path file =
+                point_file(options_, number) + ending;
+              is_own && std::filesystem::exists(file))
+            records[number] = {std::stod(cells.at(4)),
+                               file.filename().string()};
+        return true;
+      });
+      write_file(points_csv_, [&](std::ostream &out) {
+        out << table.first << '\n' << table.second;
+      });
+    });
+    // A list of .h5 holds more than their names: it begins anew.
+    if (options_.fields.format == FieldFormat::vtu)
+      point_output_.resume(options_.folder, options_.name + "_points", records);
+  }
 
   void
   PathMonitor::resume(const CheckpointData &data, const ProblemRecord &problem)
@@ -86,8 +126,11 @@ namespace Nacre
     const bool same_quantities =
       !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {
+      // Steps after the checkpoint will be taken again.
       const auto [header, kept] =
-        read_rows(options_.file("_path.csv"), data.state.step);
+        read_rows(options_.file("_path.csv"), [&](const std::string &line) {
+          return std::strtoul(line.c_str(), nullptr, 10) <= data.state.step;
+        });
       const bool goes_on = same_quantities && header == csv_header();
       if (!goes_on && !kept.empty())
         {
@@ -100,15 +143,8 @@ namespace Nacre
       write_file(options_.file("_path.csv"), [&](std::ostream &out) {
         out << csv_header() << '\n' << (goes_on ? kept : "");
       });
-      const std::string points = options_.file("_points.csv");
-      if (std::filesystem::exists(points))
-        {
-          const auto table = read_rows(points, data.state.step);
-          write_file(points, [&](std::ostream &out) {
-            out << table.first << '\n' << table.second;
-          });
-        }
     });
+    resume_points(data.state);
     if (!earlier_rows_.empty())
       log_.progress() << "other quantities than before: the rows up to step "
                       << data.state.step << " are now in " << earlier_rows_
@@ -129,6 +165,7 @@ namespace Nacre
       }
     write_row(state, values);
     print_line(state, values);
+    last_time_     = state.time;
     written_.state = state;
     has_saved_     = false;
     const bool is_due =
@@ -150,18 +187,43 @@ namespace Nacre
   }
 
   void
-  PathMonitor::observe_point(const PathPoint &point, const SolvedShell &shell)
+  PathMonitor::observe_point(const PathPoint                     &point,
+                             const SolvedShell                   &shell,
+                             const TrilinosWrappers::MPI::Vector &mode)
+  {
+    write_point(point, shell);
+    const unsigned int number = point.state.n_points;
+    if (options_.write_vtu)
+      {
+        VtuOutput::Entry entry(number,
+                               point.state.time,
+                               "point" + std::to_string(number));
+        entry.list = "_points";
+        entry.mode = &mode;
+        point_output_.write(shell, options_.folder, options_.name, entry);
+      }
+    if (checkpoint_steps_ == 0)
+      return;
+    CheckpointData data;
+    data.problem = written_.problem;
+    data.state   = point.state;
+    Checkpoint(shell.discretization, point_file(options_, number)).save(data);
+  }
+
+  void
+  PathMonitor::write_point(const PathPoint &point, const SolvedShell &shell)
   {
     const PathState   &state = point.state;
     std::ostringstream header, row, line;
-    header << "step,kind,time,load_factor,pivots_before,pivots_after";
-    row << std::setprecision(12) << state.step << ',' << point.kind << ','
-        << state.time << ',' << state.load_factor << ',' << point.n_before
-        << ',' << point.n_after;
-    line << point.kind << " point before step " << state.step << ": t "
-         << std::setprecision(8) << state.time << ", load factor "
-         << state.load_factor << ", negative pivots " << point.n_before
-         << " -> " << point.n_after << std::setprecision(6);
+    header << "branch,point,step,kind,time,load_factor,pivots_before,"
+              "pivots_after";
+    row << std::setprecision(12) << state.branch << ',' << state.n_points << ','
+        << state.step << ',' << point.kind << ',' << state.time << ','
+        << state.load_factor << ',' << point.n_before << ',' << point.n_after;
+    line << "point " << state.n_points << ", " << point.kind << ", before step "
+         << state.step << ": t " << std::setprecision(8) << state.time
+         << ", load factor " << state.load_factor << ", negative pivots "
+         << point.n_before << " -> " << point.n_after << std::setprecision(6);
     for (const auto &quantity : quantities_.quantities())
       {
         const double value = quantity.evaluate(shell);
@@ -171,14 +233,13 @@ namespace Nacre
       }
     log_.progress() << line.str() << std::endl;
     run_on_root(communicator_, [&]() {
-      const std::string csv = options_.file("_points.csv");
-      if (!std::ifstream(csv))
-        write_file(csv,
+      if (!std::filesystem::exists(points_csv_))
+        write_file(points_csv_,
                    [&](std::ostream &out) { out << header.str() << '\n'; });
-      std::ofstream out(csv, std::ios::app);
+      std::ofstream out(points_csv_, std::ios::app);
       out << row.str() << '\n' << std::flush;
       AssertThrow(out,
-                  ExcMessage("Writing '" + csv +
+                  ExcMessage("Writing '" + points_csv_ +
                              "' failed: is the disk full?"));
     });
   }
@@ -249,6 +310,8 @@ namespace Nacre
                           const std::vector<double> &values)
   {
     std::ostringstream line;
+    if (state.branch != 0)
+      line << "branch " << state.branch << ", ";
     line << "step " << state.step << ", t " << std::setprecision(6)
          << state.time << ", load factor " << state.load_factor << ", "
          << state.iterations << " iterations, residual " << std::scientific
@@ -262,14 +325,40 @@ namespace Nacre
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];
     const unsigned int n_done = state.step - start_step_;
-    // An arc-length path doesn't know how far it has to go.
-    if (options_.report_seconds && n_done > 0 &&
-        path_.type != AnalysisType::arc_length)
+    const auto         n_left = n_steps_left(state, values);
+    if (options_.report_seconds && n_done > 0 && n_left)
       line << std::fixed << std::setprecision(0) << ", "
-           << timer_.wall_time() / n_done *
-                grid_.n_steps_left(state.time, state.next_step)
-           << " s left";
+           << timer_.wall_time() / n_done * *n_left << " s left";
     log_.progress() << line.str() << std::endl;
+  }
+
+  std::optional<double>
+  PathMonitor::n_steps_left(const PathState           &state,
+                            const std::vector<double> &values) const
+  {
+    if (!path_.follows_curve())
+      return grid_.n_steps_left(state.time, state.next_step);
+    const double n_most   = double(path_.maximum_steps) - double(state.step);
+    double       distance = 0., size = state.next_step;
+    if (path_.controls_displacement())
+      {
+        double value = 0.;
+        for (unsigned int k = 0; k < values.size(); ++k)
+          if (quantities_.quantities()[k].name == path_.control)
+            value = values[k];
+        for (unsigned int k = state.n_controls; k < path_.control_values.size();
+             value          = path_.control_values[k++])
+          distance += std::abs(path_.control_values[k] - value);
+      }
+    else
+      {
+        // As if t went on changing as in the last step.
+        distance = path_.end_time - state.time;
+        size     = state.time - last_time_;
+        if (!(distance / size > 0. && distance / size < n_most))
+          return {};
+      }
+    return std::ceil(distance / size);
   }
 
   std::string
@@ -285,6 +374,10 @@ namespace Nacre
            << (n_fields == 1 ? " step: " : " steps: ")
            << options_.file(
                 options_.fields.format == FieldFormat::hdf5 ? ".xdmf" : ".pvd");
+    const unsigned int n_points = written_.state.n_points;
+    if (n_points > 0)
+      text << "; " << n_points << (n_points == 1 ? " point: " : " points: ")
+           << points_csv_;
     if (has_saved_)
       text << "; " << options_.file(".checkpoint");
     return text.str();

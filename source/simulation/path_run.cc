@@ -8,10 +8,13 @@
 #include <nacre/simulation/discrete_shell.h>
 #include <nacre/simulation/displacement_transfer.h>
 #include <nacre/simulation/path_monitor.h>
+#include <nacre/simulation/path_quantities.h>
 #include <nacre/simulation/path_run.h>
 #include <nacre/simulation/path_start.h>
 #include <nacre/simulation/run_warnings.h>
 
+#include <cmath>
+#include <filesystem>
 #include <iomanip>
 #include <sstream>
 
@@ -27,13 +30,37 @@ namespace Nacre
 
     /** Folder and name of a path's files, without their endings. */
     OutputOptions
-    own_options(const Recorder &recorder)
+    own_options(const Recorder &recorder, const int branch = 0)
     {
       OutputOptions options = recorder.options();
       options.name          = recorder.names().own_name;
+      if (branch != 0)
+        options.name += "_branch" + std::to_string(branch);
       return options;
     }
 
+    /** Of paths whose t is unknown: the files of an earlier run's points. */
+    void
+    remove_points(const OutputOptions &options)
+    {
+      std::vector<std::filesystem::path> old = {options.file("_points.csv")};
+      if (std::filesystem::exists(options.folder))
+        for (const auto &entry :
+             std::filesystem::directory_iterator(options.folder))
+          {
+            const std::string file = entry.path().filename().string();
+            for (const auto *const kind : {"_point", "_branch"})
+              if (const std::string start = options.name + kind;
+                  file.compare(0, start.size(), start) == 0 &&
+                  file.find_first_of("-0123456789", start.size()) ==
+                    start.size() &&
+                  file.find(".checkpoint") != std::string::npos)
+                old.push_back(entry.path());
+          }
+      std::error_code not_there;
+      for (const auto &file : old)
+        std::filesystem::remove(file, not_there);
+    }
   } // namespace
 
   /** A shell, its system of equations and the steps that solve it. */
@@ -45,6 +72,7 @@ namespace Nacre
      */
     SteppedShell(const MPI_Comm                       communicator,
                  const ShellProblem                  &problem,
+                 const QuantitiesOfInterest          &quantities,
                  std::unique_ptr<DiscreteShell::Mesh> mesh,
                  Log                                 &log)
       : shell(communicator, problem, std::move(mesh), 1, log)
@@ -53,7 +81,12 @@ namespace Nacre
                problem.model,
                shell.solver())
       , path(problem.path, system, problem.model.section)
-    {}
+    {
+      check_path_quantities(problem.path, quantities);
+      if (problem.path.controls_displacement())
+        path.curve()->control(controlled_quantity(problem.path, quantities)
+                                ->goal.load(shell.discretization()));
+    }
 
     DiscreteShell shell;
     ShellSystem   system;
@@ -146,6 +179,8 @@ namespace Nacre
       warn_of_linear_path(log);
   }
 
+  PathRun::~PathRun() = default;
+
   void
   PathRun::check_restart(const bool restart) const
   {
@@ -159,7 +194,11 @@ namespace Nacre
   PathRun::check(const Recorder &recorder, const bool restart)
   {
     check_restart(restart);
-    const SteppedShell   stepped(communicator_, problem_, nullptr, log_);
+    const SteppedShell   stepped(communicator_,
+                               problem_,
+                               recorder.quantities(),
+                               nullptr,
+                               log_);
     const DiscreteShell &shell = stepped.shell;
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
@@ -177,124 +216,262 @@ namespace Nacre
   {
     check_restart(restart);
     CpuTimer timer(communicator_);
-    auto     stepped =
-      std::make_unique<SteppedShell>(communicator_, problem_, nullptr, log_);
+    stepped_ = std::make_unique<SteppedShell>(communicator_,
+                                              problem_,
+                                              recorder.quantities(),
+                                              nullptr,
+                                              log_);
     SolveRecord record;
     record.setup = timer.lap();
-    record.eta   = stepped->shell.assembly().penalty().eta();
-    recorder.check_quantities(stepped->shell.discretization());
+    record.eta   = stepped_->shell.assembly().penalty().eta();
+    recorder.check_quantities(stepped_->shell.discretization());
 
-    const ProblemRecord problem = current_problem(communicator_);
-    const OutputOptions options = own_options(recorder);
+    timer.lap();
+    PathEnd     end     = follow_path(0, restart, recorder);
+    std::string failure = end.failure;
+    for (const int branch : branches(end.state.n_bifurcations))
+      {
+        end = follow_path(branch, restart, recorder);
+        if (!end.failure.empty())
+          failure += (failure.empty() ? "" : " ") + std::string("Branch ") +
+                     std::to_string(branch) + ": " + end.failure;
+      }
+    record.assembly = Utilities::MPI::sum(assembly_seconds_ +
+                                            stepped_->system.assembly_seconds(),
+                                          communicator_);
+    record.solve    = timer.lap() - record.assembly;
+    AssertThrow(failure.empty(), ExcMessage(failure));
+    add_row(end.state, record, recorder);
+  }
+
+  PathRun::PathEnd
+  PathRun::follow_path(const int branch, const bool restart, Recorder &recorder)
+  {
+    const OutputOptions primary = own_options(recorder);
+    const OutputOptions options = own_options(recorder, branch);
     // Of the first mesh: where it changes, nothing is saved.
-    Checkpoint  checkpoint(stepped->shell.discretization(), options.file(""));
+    Checkpoint  checkpoint(stepped_->shell.discretization(), options.file(""));
     PathMonitor monitor(communicator_,
                         options,
+                        primary.file("_points.csv"),
+                        branch,
                         problem_.path,
                         recorder.quantities(),
                         checkpoint,
                         !adaptive_.is_on(),
                         log_);
-    const auto  data = load_state(stepped->shell,
+    const bool  goes_on =
+      restart &&
+      (branch == 0 || std::filesystem::exists(options.file(".checkpoint")));
+    PathEnd end{begin(branch, goes_on, options, checkpoint, monitor, recorder),
+                ""};
+    if (!goes_on || !ends(end.state, recorder.quantities()))
+      end.failure = follow(end.state, monitor, recorder);
+    const SolvedState last(end.state, *stepped_);
+    monitor.finish(end.state, last.shell());
+    recorder.add_summary(monitor.summary());
+    return end;
+  }
+
+  PathState
+  PathRun::begin(const int            branch,
+                 const bool           restart,
+                 const OutputOptions &options,
+                 Checkpoint          &checkpoint,
+                 PathMonitor         &monitor,
+                 const Recorder      &recorder)
+  {
+    const ProblemRecord problem = current_problem(communicator_);
+    if (branch != 0 && !restart)
+      {
+        const PathState state = branch_start(branch, own_options(recorder));
+        run_on_root(communicator_, [&]() { checkpoint.remove(); });
+        monitor.start(problem);
+        return state;
+      }
+    const auto data = load_state(stepped_->shell,
                                  problem,
                                  options.file(""),
                                  restart,
                                  checkpoint);
-    PathState   state;
     if (restart)
       {
         // A restart that is refused leaves all files as they were.
         recorder.start_files(true);
         monitor.resume(*data, problem);
-        state = data->state;
+        return data->state;
       }
-    else
-      {
-        state =
-          stepped->path.initial_state(data ? &data->state.motion : nullptr);
-        run_on_root(communicator_, [&]() { checkpoint.remove(); });
-        monitor.start(problem);
-      }
+    const PathState state =
+      stepped_->path.initial_state(data ? &data->state.motion : nullptr);
+    run_on_root(communicator_, [&]() {
+      checkpoint.remove();
+      remove_points(options);
+    });
+    monitor.start(problem);
+    return state;
+  }
 
-    timer.lap();
-    const std::string failure = follow(stepped, state, monitor);
-    record.assembly           = Utilities::MPI::sum(assembly_seconds_ +
-                                            stepped->system.assembly_seconds(),
-                                          communicator_);
-    record.solve              = timer.lap() - record.assembly;
-    finish(*stepped, state, failure, record, monitor, recorder);
+  std::vector<int>
+  PathRun::branches(const unsigned int n_found) const
+  {
+    const BranchChoice &choice = problem_.path.branches;
+    if (!choice.has_several())
+      return {};
+    if (choice.n_bifurcations() > n_found)
+      log_.warning(
+        "Analysis/Switch branch: the primary path has only " +
+        std::to_string(n_found) +
+        (n_found == 1 ? " bifurcation point; " : " bifurcation points; ") +
+        "the branches of others are left out.");
+    return choice.branches(n_found);
+  }
+
+  PathState
+  PathRun::branch_start(const int number, const OutputOptions &primary)
+  {
+    const auto place = static_cast<unsigned int>(std::abs(number));
+    // After a restart points from before are known by their checkpoints only.
+    for (unsigned int k = 1; bifurcations_.count(place) == 0; ++k)
+      {
+        CheckpointData data;
+        Checkpoint     point(stepped_->shell.discretization(),
+                         PathMonitor::point_file(primary, k));
+        point.load(data, [](const ProblemRecord &) { return std::string(); });
+        bifurcations_.emplace(data.state.n_bifurcations, data.state);
+      }
+    PathState state = bifurcations_.at(place);
+    stepped_->path.curve()->begin_branch(number, state);
+    state.step = state.n_points = state.n_bifurcations = 0;
+    return state;
+  }
+
+  int
+  PathRun::take_point(const PathPoint &point, PathMonitor &monitor)
+  {
+    const BranchChoice &choice = problem_.path.branches;
+    const PathState    &state  = point.state;
+    const SolvedState   solved(state, *stepped_);
+    monitor.observe_point(point,
+                          solved.shell(),
+                          stepped_->system.with_ghosts(state.motion.a));
+    if (state.branch != 0 || !point.is_bifurcation())
+      return 0;
+    if (choice.has_several())
+      bifurcations_.emplace(state.n_bifurcations, state);
+    const int changes_over = choice.change_over();
+    if (std::abs(changes_over) != static_cast<int>(state.n_bifurcations))
+      return 0;
+    log_.progress() << "the path goes on along the branch that leaves this "
+                       "point"
+                    << std::endl;
+    return changes_over > 0 ? 1 : -1;
+  }
+
+  bool
+  PathRun::ends(const PathState &state, const QuantitiesOfInterest &quantities)
+  {
+    const PathParameters &path = problem_.path;
+    std::string           why;
+    if (!path.bounds.empty())
+      {
+        const SolvedState solved(state, *stepped_);
+        why = reached_bound(path, quantities, state, solved.shell());
+      }
+    if (why.empty() && path.maximum_points > 0 &&
+        state.n_points >= path.maximum_points)
+      why = "the last of the 'Maximum points' has been found";
+    if (why.empty() && state.branch == 0 && path.branches.has_several() &&
+        !path.branches.has_primary() &&
+        state.n_bifurcations >= path.branches.n_bifurcations())
+      why = "the last bifurcation point asked for has been found";
+    if (why.empty())
+      return false;
+    log_.progress() << "the path ends: " << why << std::endl;
+    return true;
   }
 
   std::string
-  PathRun::follow(std::unique_ptr<SteppedShell> &stepped,
-                  PathState                     &state,
-                  PathMonitor                   &monitor)
+  PathRun::follow(PathState      &state,
+                  PathMonitor    &monitor,
+                  const Recorder &recorder)
   {
-    const auto observe = [&](const PathState &step) {
-      const SolvedState solved(step, *stepped);
+    const auto &quantities = recorder.quantities();
+    bool        pauses     = false;
+
+    PathCallbacks callbacks;
+    callbacks.observe = [&](const PathState &step) {
+      const SolvedState solved(step, *stepped_);
       warn_of_energy(step);
       monitor.observe(step, solved.shell());
     };
-    const auto observe_point = [&](const PathPoint &point) {
-      const SolvedState solved(point.state, *stepped);
-      monitor.observe_point(point, solved.shell());
+    callbacks.observe_point = [&](const PathPoint &point) {
+      return take_point(point, monitor);
     };
-    const auto tell = [&](const std::string &text) {
+    callbacks.tell = [&](const std::string &text) {
       log_.progress() << text << std::endl;
+    };
+    callbacks.pauses = [&](const PathState &step) {
+      pauses =
+        n_refinements_ < adaptive_.n_cycles() && adaptive_.is_due(step.step);
+      return pauses;
+    };
+    callbacks.ends = [&](const PathState &step) {
+      return ends(step, quantities);
     };
     while (true)
       {
-        bool       pauses = false;
-        const auto is_due = [&](const PathState &step) {
-          pauses = n_refinements_ < adaptive_.n_cycles() &&
-                   adaptive_.is_due(step.step);
-          return pauses;
-        };
-        const std::string failure =
-          stepped->path.run(state, {observe, observe_point, tell, is_due});
+        pauses                    = false;
+        const std::string failure = stepped_->path.run(state, callbacks);
         if (!pauses)
           return failure;
-        refine(stepped, state);
-        observe(state);
+        refine(quantities, state);
+        callbacks.observe(state);
+        if (callbacks.ends(state))
+          return "";
       }
   }
 
   void
-  PathRun::refine(std::unique_ptr<SteppedShell> &stepped, PathState &state)
+  PathRun::refine(const QuantitiesOfInterest &quantities, PathState &state)
   {
     std::unique_ptr<DiscreteShell::Mesh> mesh;
     std::optional<DisplacementTransfer>  transfer;
     double                               estimated = 0.;
     {
-      const SolvedState solved(state, *stepped);
+      const SolvedState solved(state, *stepped_);
       const auto        estimate = adaptive_.estimate(solved.shell(), {});
       const auto        marked   = adaptive_.mark(estimate, solved.shell());
       if (!marked)
         return;
       estimated = estimate.value;
-      transfer.emplace(stepped->shell.discretization(),
-                       solved.shell().displacement,
+      transfer.emplace(stepped_->shell.discretization(),
+                       std::vector<const TrilinosWrappers::MPI::Vector *>{
+                         &solved.shell().displacement,
+                         solved.shell().velocity},
                        *marked);
     }
-    assembly_seconds_ += stepped->system.assembly_seconds();
-    mesh = stepped->shell.release_mesh();
-    stepped.reset();
+    assembly_seconds_ += stepped_->system.assembly_seconds();
+    mesh = stepped_->shell.release_mesh();
+    stepped_.reset();
     transfer->refine(*mesh);
-    stepped = std::make_unique<SteppedShell>(communicator_,
-                                             problem_,
-                                             std::move(mesh),
-                                             log_);
+    stepped_ = std::make_unique<SteppedShell>(communicator_,
+                                              problem_,
+                                              quantities,
+                                              std::move(mesh),
+                                              log_);
     ++n_refinements_;
-    const auto        &discretization = stepped->shell.discretization();
+    const auto        &discretization = stepped_->shell.discretization();
     std::ostringstream text;
     text << std::setprecision(3) << "refined after step " << state.step
          << ": estimate " << estimated << " before, "
          << discretization.triangulation().n_global_active_cells() << " cells, "
          << discretization.dof_handler().n_dofs() << " dofs";
     log_.progress() << text.str() << std::endl;
-    state.motion.u = transfer->displacement_on(discretization);
-    state.motion.v = state.motion.a = stepped->system.owned_vector();
-    const std::string failure       = stepped->path.settle(state);
+    state.motion.u              = transfer->field_on(discretization, 0);
+    state.motion.v              = transfer->field_on(discretization, 1);
+    state.motion.a              = stepped_->system.owned_vector();
+    const unsigned int n_before = state.n_negative_pivots;
+    const std::string  failure  = stepped_->path.settle(state);
     AssertThrow(failure.empty(),
                 ExcMessage("Adaptive refinement/Cycles: the refined mesh has "
                            "no equilibrium close to that of the mesh before at "
@@ -303,26 +480,26 @@ namespace Nacre
                            ". Begin with a finer mesh, 'Study/Refinements', or "
                            "refine less at a time, 'Adaptive "
                            "refinement/Fraction'."));
+    if (state.n_negative_pivots != n_before)
+      log_.progress() << "on the refined mesh the state has "
+                      << state.n_negative_pivots
+                      << " negative pivots instead of " << n_before
+                      << ": it lies beyond a point there, which isn't listed"
+                      << std::endl;
   }
 
   void
-  PathRun::finish(SteppedShell      &stepped,
-                  const PathState   &state,
-                  const std::string &failure,
-                  SolveRecord       &record,
-                  PathMonitor       &monitor,
-                  Recorder          &recorder)
+  PathRun::add_row(const PathState &state,
+                   SolveRecord     &record,
+                   Recorder        &recorder)
   {
-    const SolvedState last(state, stepped);
+    const SolvedState last(state, *stepped_);
     if (has_linear_kinematics(problem_))
-      warn_of_large_displacements(stepped.shell.discretization(),
+      warn_of_large_displacements(stepped_->shell.discretization(),
                                   last.shell().displacement,
                                   log_);
-    record.solver = stepped.shell.solver().name();
-    monitor.finish(state, last.shell());
-    AssertThrow(failure.empty(), ExcMessage(failure));
-    recorder.add_summary(monitor.summary());
-    auto row = recorder.make_row(last.shell(), record);
+    record.solver = stepped_->shell.solver().name();
+    auto row      = recorder.make_row(last.shell(), record);
     if (adaptive_.is_on())
       adaptive_.add_to_row(last.shell(),
                            adaptive_.estimate(last.shell(), {}),

@@ -45,6 +45,8 @@ namespace Nacre
         "Analysis/Minimum time step",
         "Analysis/Maximum time step",
         "Analysis/Maximum steps",
+        "Analysis/Maximum points",
+        "Analysis/Stop where",
         "Analysis/Output times",
         "Analysis/Maximum iterations",
         "Analysis/Increment tolerance",

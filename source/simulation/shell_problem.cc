@@ -175,7 +175,9 @@ namespace Nacre
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);
-    problem.modes          = modes_.make(problem.path.type, constants);
+    problem.modes          = modes_.make(problem.path.type,
+                                !problem.path.start_from.empty(),
+                                constants);
     if (!problem.path.is_linear())
       model.load_factor = std::move(load_factor);
     problem.n_refinements = shell_case.n_refinements;
@@ -232,20 +234,30 @@ namespace Nacre
                     std::string("Linear solver/Solver: 'multigrid' doesn't "
                                 "know the inertia of a dynamic analysis; "
                                 "choose auto or direct.")));
-    AssertThrow(!seeks_modes(problem.path.type) ||
-                  (linear_kinematics &&
-                   options.edge_form == EdgeForm::rotation_jump),
-                ExcMessage("Discretization/Kinematics, Edge form: "
-                           "'Analysis/Type = " +
-                           name_of(problem.path.type) +
+    const std::string type = "'Analysis/Type = " + name_of(problem.path.type);
+    const bool        at_rest =
+      seeks_modes(problem.path.type) && problem.path.start_from.empty();
+    AssertThrow(!at_rest || (linear_kinematics &&
+                             options.edge_form == EdgeForm::rotation_jump),
+                ExcMessage("Discretization/Kinematics, Edge form: " + type +
                            "' linearises about the undeformed shell; choose "
                            "'Kinematics = linear' and 'Edge form = rotation "
                            "jump', and by 'Analysis/Prestress' what the state "
-                           "before adds."));
-    AssertThrow(problem.path.type != AnalysisType::arc_length ||
+                           "before adds; or name a state by 'Analysis/Start "
+                           "from'."));
+    AssertThrow(!seeks_modes(problem.path.type) || at_rest ||
+                  options.model == KinematicsModel::finite,
+                ExcMessage("Discretization/Kinematics: " + type +
+                           "' about the state of 'Analysis/Start from' takes "
+                           "the derivative of an exact tangent; choose "
+                           "'finite', with which that state must have been "
+                           "found, too."));
+    AssertThrow(!problem.path.follows_curve() ||
                   options.tangent != TangentType::frozen,
                 ExcMessage("Discretization/Tangent: 'frozen' converges slowly, "
-                           "and Type = arc length needs the derivative; choose "
+                           "and " +
+                           type +
+                           "' needs the derivative; choose "
                            "'symmetric'."));
     AssertThrow(problem.assembly == AssemblyMethod::fast ||
                   (problem.path.is_linear() &&

@@ -113,10 +113,14 @@ namespace Nacre
     Matrix          K, M;
     CpuTimer        timer(communicator_);
     const MassTerms mass(shell.discretization(), problem_.model.section);
-    prestress.assemble_stiffness(K);
+    if (start() != nullptr)
+      prestress.assemble_tangent(start()->u, start()->time, K);
+    else
+      prestress.assemble_stiffness(K);
     assemble_mass(mass, prestress.constraints(), shell, M);
     modes.assembly += timer.lap();
-    modes.state = prestress.solve(K, 1., shell.solver());
+    modes.state =
+      start() != nullptr ? start()->u : prestress.solve(K, 1., shell.solver());
     timer.lap();
     if (problem_.modes.prestress != PrestressKind::none)
       {

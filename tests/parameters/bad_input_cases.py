@@ -95,8 +95,32 @@ case("arc_length_frozen", ["Discretization/Tangent", "'frozen'"],
       "Discretization/Tangent": "frozen"})
 case("switch_branch_of_static", ["Analysis/Switch branch", "arc length"],
      {"Analysis/Type": "static", "Analysis/Switch branch": "1"})
-case("arc_length_adaptive", ["Adaptive refinement/Cycles", "arc length"],
-     {**ARC, "Adaptive refinement/Cycles": "2"})
+case("branches_adaptive", ["Adaptive refinement/Cycles", "Switch branch"],
+     {**ARC, "Adaptive refinement/Cycles": "2",
+      "Analysis/Switch branch": "all"})
+case("switch_branch_text", ["Analysis/Switch branch", "'first'", "'all'"],
+     {**ARC, "Analysis/Switch branch": "first"})
+case("switch_branch_twice", ["Analysis/Switch branch", "'1'", "twice"],
+     {**ARC, "Analysis/Switch branch": "1, 1"})
+case("maximum_points_of_static", ["Analysis/Maximum points", "arc length"],
+     {"Analysis/Type": "static", "Analysis/Maximum points": "1"})
+case("stop_where_form", ["Analysis/Stop where", "'w = 3'", "<"],
+     {**ARC, "Analysis/Stop where": "w = 3"})
+case("stop_where_of_linear", ["Analysis/Stop where", "no path"],
+     {"Analysis/Stop where": "w < 3"})
+case("control_of_static", ["Analysis/Control", "displacement control"],
+     {"Analysis/Type": "static", "Analysis/Control": "w"})
+case("control_missing", ["Analysis/Control", "Control values"],
+     {"Analysis/Type": "displacement control", "Analysis/Control": "w"})
+case("control_step_of_zero", ["Analysis/Control step", "all 0"],
+     {"Analysis/Type": "displacement control", "Analysis/Control": "w",
+      "Analysis/Control values": "0"})
+case("arc_length_no_step", ["Analysis/Time step", "zero"],
+     {**ARC, "Analysis/Time step": "0"})
+case("static_downward", ["Analysis/Time step", "not positive"],
+     {"Analysis/Type": "static", "Analysis/Time step": "-0.1"})
+case("state_of_linear_kinematics", ["Discretization/Kinematics", "'finite'"],
+     {"Analysis/Type": "buckling", "Analysis/Start from": "output/x"})
 case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],
      {"Analysis/Type": "static", "Analysis/Maximum time step": "0.01"})
 case("analysis_load_factor", ["Analysis/Load factor", "s"],

@@ -11,14 +11,18 @@ namespace Nacre
   /**
    * A step along the curve (u(s), t(s)) of equilibria r(u, t) = 0, whose time t
    * isn't prescribed: loads and prescribed displacements are those of t, which
-   * rises and falls. Newton's method with the normal plane of the predictor
-   * (E. Riks, An incremental approach to the solution of snapping and buckling
-   * problems, Int. J. Solids Structures 15 (1979) 529-551):
+   * rises and falls. The step ends in a plane,
    *
-   *   K du = -r - r,t dt,   n . du = 0 after the first iteration,
+   *   K du = -r - r,t dt,   n . (u + du - u_0) = d,
    *
-   * n = du/ds the unit tangent of the curve at the start. Both right-hand sides
-   * share a factorisation, so that K may be singular in between.
+   * u_0 being the displacement at the start. With n the tangent of the curve
+   * there, this is the arc-length method with the normal plane (E. Riks, An
+   * incremental approach to the solution of snapping and buckling problems,
+   * Int. J. Solids Structures 15 (1979) 529-551); with n the gradient of a
+   * linear quantity n . u, it is displacement control (J.-L. Batoz, G. Dhatt,
+   * Incremental displacement algorithms for nonlinear problems, Int. J. Numer.
+   * Meth. Engng 14 (1979) 1262-1267). Both right-hand sides share a
+   * factorisation, so that K may be singular in between.
    */
   class ArcLengthStep
   {
@@ -27,24 +31,36 @@ namespace Nacre
 
     /**
      * @param u in equilibrium at @p time
-     * @param direction a vector on whose side the step goes; zero: t rises
-     * @param length |du| of the step (length), sum over all dofs; for a
-     *   direction of zero the change of t
      * @param rate_step for ShellSystem::rate()
      */
     ArcLengthStep(ShellSystem  &system,
                   const Vector &u,
                   const double  time,
-                  const Vector &direction,
-                  const double  length,
                   const double  rate_step);
 
     /**
-     * Begin with @p predictor (length) instead, at the same time: at a
-     * bifurcation point the mode of the tangent leads to the other branch.
+     * To the plane normal to the tangent.
+     * @param direction a vector on whose side the step goes; zero: t rises
+     * @param length |du| of the step (length), sum over all dofs; for a
+     *   direction of zero the change of t, whose sign may be negative
      */
     void
-    set_predictor(const Vector &predictor);
+    go_along_tangent(const Vector &direction, const double length);
+
+    /**
+     * To the plane where @p normal . u has changed by @p distance: a quantity
+     * whose gradient is the normal.
+     */
+    void
+    go_to_plane(const Vector &normal, const double distance);
+
+    /**
+     * To the plane through the end of @p mode (length), normal to it, from
+     * there: at a bifurcation point the mode of the tangent leads to the other
+     * branch, at about the same time.
+     */
+    void
+    go_along_mode(const Vector &mode);
 
     /**
      * Solve for the end of the step. Fails as NewtonSolver does, and if the
@@ -67,7 +83,7 @@ namespace Nacre
       return time_;
     }
 
-    /** du of the first iteration: along the tangent at the start (length). */
+    /** du of the first iteration, or the mode (length). */
     const Vector &
     predictor() const
     {
@@ -78,16 +94,23 @@ namespace Nacre
     NewtonSolver::Step
     linearise(const Vector &u, Vector &du);
 
+    /** The plane of the tangent, whose velocity is du/dt. */
+    void
+    set_tangent_plane(const Vector &velocity);
+
     ShellSystem  &system_;
     const Vector  start_;
     const double  start_time_;
-    const Vector &direction_;
-    const double  length_;
     const double  rate_step_;
-    Vector        u_;
-    double        time_;
-    Vector        predictor_;
-    bool          has_predictor_ = false;
+    const Vector *direction_ = nullptr;
+    double        length_    = 0.;
+    /** The plane; the normal is empty before it is known. */
+    Vector normal_;
+    double distance_ = 0.;
+    Vector u_;
+    double time_;
+    Vector predictor_;
+    bool   is_first_ = true;
   };
 } // namespace Nacre
 

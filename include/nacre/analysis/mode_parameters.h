@@ -57,9 +57,14 @@ namespace Nacre
   public:
     ModeParameters();
 
-    /** Throws ExcMessage for values that @p type doesn't use. */
+    /**
+     * Throws ExcMessage for values that @p type doesn't use.
+     * @param has_start whether the state is that of another run
+     */
     ModeOptions
-    make(const AnalysisType type, const Constants &constants) const;
+    make(const AnalysisType type,
+         const bool         has_start,
+         const Constants   &constants) const;
 
   private:
     void

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ namespace Nacre
     relaxation,
     /** Equilibria along a path whose load factor may fall. */
     arc_length,
+    /** The same, by steps of a quantity. */
+    displacement_control,
     /** Motion in time. */
     dynamic,
     /** Load factors at which the linear state is no longer stable. */
@@ -65,6 +68,62 @@ namespace Nacre
 
   const Selection<TangentUpdates> &selection(TangentUpdates);
 
+  /** Which branches of a curve of equilibria are followed. */
+  struct BranchChoice
+  {
+    /** The primary path and both sides of each branch. */
+    bool all = false;
+    /**
+     * The numbers of bifurcation points, negative for the other side; 0 is the
+     * primary path. Empty: the primary path only.
+     */
+    std::vector<int> numbers;
+
+    /** The bifurcation point at which a single path changes over; or 0. */
+    int
+    change_over() const
+    {
+      return numbers.size() == 1 ? numbers.front() : 0;
+    }
+
+    /** Whether there are several paths with files of their own. */
+    bool
+    has_several() const
+    {
+      return all || numbers.size() > 1;
+    }
+
+    /** Whether the primary path is followed to its end. */
+    bool
+    has_primary() const;
+
+    /** How many bifurcation points of the primary path are asked for. */
+    unsigned int
+    n_bifurcations() const;
+
+    /** The branches other than 0 if the primary path has @p n_found points. */
+    std::vector<int>
+    branches(const unsigned int n_found) const;
+  };
+
+  /** A quantity beyond a value, at which a path ends. */
+  struct PathBound
+  {
+    std::string quantity;
+    bool        is_below = false;
+    double      value    = 0.;
+
+    bool
+    holds(const double found) const
+    {
+      return is_below ? found < value : found > value;
+    }
+
+    /** "w < -30" */
+    std::string
+    text() const;
+  };
+
   /** How an analysis goes on from step to step. */
   struct StepParameters
   {
@@ -77,10 +136,12 @@ namespace Nacre
     double spectral_radius = 0.8;
     /** Force per mass and velocity (1/time). */
     double mass_damping = 0.;
-    /** Of a path with arc length. */
+    /** @name Of a curve of equilibria */
+    //@{
     unsigned int maximum_steps = 1000;
-    /** Number of the bifurcation point at which it leaves; 0: at none. */
-    int switch_branch = 0;
+    /** 0: any number. */
+    unsigned int maximum_points = 0;
+    //@}
     /** Fields are written every so many steps; 0: at output_times only. */
     unsigned int vtu_steps = 1;
     /** The state is saved every so many steps; 0: never. */
@@ -108,6 +169,19 @@ namespace Nacre
       return type == AnalysisType::dynamic;
     }
 
+    bool
+    controls_displacement() const
+    {
+      return type == AnalysisType::displacement_control;
+    }
+
+    /** Whether t is unknown along the path. */
+    bool
+    follows_curve() const
+    {
+      return type == AnalysisType::arc_length || controls_displacement();
+    }
+
     /** Whether inertia holds a shell that no support holds. */
     bool
     has_inertia() const
@@ -126,12 +200,27 @@ namespace Nacre
   /** A path: its steps, its times (in statics without a unit), its start. */
   struct PathParameters : StepParameters
   {
+    /** Negative if a curve of equilibria ends at a negative t. */
     double end_time          = 1.;
     double time_step         = 0.1;
     double minimum_time_step = 1e-4;
     double maximum_time_step = 0.1;
     /** Times that are met exactly, and whose fields are written. */
     std::vector<double> output_times;
+    /** Where it ends before. */
+    std::vector<PathBound> bounds;
+
+    /** @name Of a curve of equilibria */
+    //@{
+    BranchChoice branches;
+    /** Whether t falls in the first step. */
+    bool begins_downward = false;
+    /** The quantity that is controlled, its values and the size of steps. */
+    std::string         control;
+    std::vector<double> control_values;
+    double              control_step = 0.;
+    //@}
+
     /** Displacement (length) and velocity at the start, in dynamics. */
     VectorExpression initial_displacement;
     VectorExpression initial_velocity;
@@ -140,7 +229,7 @@ namespace Nacre
     TimeGrid
     time_grid() const
     {
-      return {time_step, end_time, output_times};
+      return {time_step, std::abs(end_time), output_times};
     }
   };
 
@@ -159,11 +248,21 @@ namespace Nacre
     load_factor(const Constants &constants) const;
 
   private:
+    /** The parameters of curves of equilibria. */
+    void
+    declare_curve();
+
     void
     read_times(const Constants &constants, PathParameters &path) const;
 
     void
     read_start(const Constants &constants, PathParameters &path) const;
+
+    void
+    read_curve(const Constants &constants, PathParameters &path) const;
+
+    void
+    check_use(const PathParameters &path) const;
 
     StepParameters steps_;
     std::string    load_factor_text_          = "default";
@@ -172,6 +271,11 @@ namespace Nacre
     std::string    minimum_time_step_text_    = "default";
     std::string    maximum_time_step_text_    = "default";
     std::string    output_times_text_         = "";
+    std::string    stop_where_text_           = "";
+    std::string    switch_branch_text_        = "none";
+    std::string    control_text_              = "";
+    std::string    control_values_text_       = "";
+    std::string    control_step_text_         = "default";
     std::string    initial_displacement_text_ = "0, 0, 0";
     std::string    initial_velocity_text_     = "0, 0, 0";
   };

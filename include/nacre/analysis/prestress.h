@@ -11,12 +11,15 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
+#include <utility>
+
 namespace Nacre
 {
   /**
    * The stiffness of a shell in a linear state: K + G, where G is what the
-   * state adds. Matrices have the constraints eliminated, which are those of
-   * the eigenproblem, homogeneous ones.
+   * state adds; or that of a nonlinear state. Matrices have the constraints
+   * eliminated, which are those of the eigenproblem, homogeneous ones.
    */
   class Prestress
   {
@@ -62,7 +65,37 @@ namespace Nacre
         const double  factor,
         Matrix       &matrix) const;
 
+    /** The tangent K(u) of the nonlinear state @p u, ghosted, at @p time. */
+    void
+    assemble_tangent(const Vector &u, const double time, Matrix &K) const;
+
+    /**
+     * Add factor times dK/dt of the tangent at @p u along the curve of
+     * equilibria, du/dt = @p velocity (length/time), both ghosted, the change
+     * of the loads included; and clear the rows of constrained dofs.
+     */
+    void
+    add_tangent_rate(const Vector &u,
+                     const Vector &velocity,
+                     const double  time,
+                     const double  factor,
+                     Matrix       &matrix) const;
+
   private:
+    /** A place on a line through a state, and what acts there. */
+    using Line = std::function<std::pair<Vector, Instant>(const double place)>;
+
+    /**
+     * Add factor times the derivative of the tangent along @p line at 0, by
+     * differences of the size @p step.
+     */
+    void
+    differentiate(const Assembly &assembly,
+                  const Line     &line,
+                  const double    step,
+                  const double    factor,
+                  Matrix         &matrix) const;
+
     Vector
     ghosted(const Vector &owned) const;
 

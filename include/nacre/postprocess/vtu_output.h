@@ -44,6 +44,7 @@ namespace Nacre
    * the ply K, counted from 1 at the bottom, in its axes | force/length^2 |
    * | ply_K_bottom_strain, ply_K_top_strain | (e1, e2, 2 e12) there | - |
    * | error_indicator | eta_K of the cell, if given | |
+   * | mode | of a point of a path, if given: its largest entry is 1 | - |
    *
    * The strain at the distance z along t0 is eps + z rho, since
    * rho_ab = -u,ab . t0 on a plate: positive moments stretch the top.
@@ -61,10 +62,12 @@ namespace Nacre
     /**
      * @param error_indicators by active cell index, if any
      * @param n_subdivisions of each quadrilateral's edges; 0: the degree p
+     * @param mode a field of displacements, ghosted, or null
      */
-    ShellFields(const ShellState          &state,
-                const std::vector<double> &error_indicators = {},
-                const unsigned int         n_subdivisions   = 0);
+    ShellFields(const ShellState                    &state,
+                const std::vector<double>           &error_indicators = {},
+                const unsigned int                   n_subdivisions   = 0,
+                const TrilinosWrappers::MPI::Vector *mode = nullptr);
 
     /**
      * One patch for each of this rank's cells; data[component][point], points
@@ -83,6 +86,7 @@ namespace Nacre
   private:
     unsigned int       n_layers_;
     bool               has_error_indicators_;
+    bool               has_mode_;
     std::vector<Patch> patches_;
   };
 
@@ -156,6 +160,10 @@ namespace Nacre
       /** That the list tells of. */
       double      time;
       std::string label;
+      /** The list's name is that of the files, and this. */
+      std::string list = "";
+      /** A mode that is shown beside the state, ghosted, or null. */
+      const TrilinosWrappers::MPI::Vector *mode = nullptr;
     };
 
     /**

@@ -14,7 +14,13 @@ namespace Nacre
    *   (K + G_0 + lambda G) u = 0
    *
    * with the stiffness K of the undeformed shell, G_0 of the Prestress at
-   * t = 0, which stays, and G of what the loads change from t = 0 to t = 1.
+   * t = 0, which stays, and G of what the loads change from t = 0 to t = 1. At
+   * the state of another run, in equilibrium at t_0,
+   *
+   *   (K(u_0) + (lambda - t_0) dK/dt) u = 0
+   *
+   * with the derivative of the tangent along the curve of equilibria: lambda is
+   * the t of a bifurcation or limit point to the first order.
    */
   class BucklingAnalysis : public ModeAnalysis
   {
@@ -42,6 +48,21 @@ namespace Nacre
     }
 
   private:
+    /** The same at start(). */
+    void
+    assemble_at_start(const DiscreteShell &shell,
+                      const Prestress     &prestress,
+                      Matrix              &K,
+                      Matrix              &G,
+                      Modes               &modes) const;
+
+    /** The factor that the eigenvalues are counted from. */
+    double
+    origin() const
+    {
+      return start() != nullptr ? start()->time : 0.;
+    }
+
     /**
      * K + G_0, and minus G, which is the mass of the eigenproblem; and the
      * linear state at t = 1.

@@ -15,13 +15,13 @@
 namespace Nacre
 {
   /**
-   * Carries a displacement to the mesh that refinement makes of its own: the
+   * Carries displacements to the mesh that refinement makes of its own: the
    * same polynomials of the reference cells, on any ranks. New nodes of the
    * geometry lie on the exact surface, so that the deformed surface changes by
    * as much as the undeformed one does.
    *
    * The steps, each collective: the constructor; Discretization's triangulation
-   * is released; refine(); another Discretization takes it; displacement_on().
+   * is released; refine(); another Discretization takes it; field_on().
    */
   class DisplacementTransfer
   {
@@ -30,20 +30,20 @@ namespace Nacre
     using Mesh   = parallel::TriangulationBase<dim, spacedim>;
 
     /**
-     * @param displacement ghosted (length)
+     * @param fields ghosted, such as displacements (length)
      * @param marked cells to refine, by active cell index; those of this rank
      */
-    DisplacementTransfer(const Discretization    &discretization,
-                         const Vector            &displacement,
-                         const std::vector<bool> &marked);
+    DisplacementTransfer(const Discretization              &discretization,
+                         const std::vector<const Vector *> &fields,
+                         const std::vector<bool>           &marked);
 
     /** Refine the triangulation of the discretisation, now @p mesh. */
     void
     refine(Mesh &mesh);
 
-    /** The displacement, owned entries, hanging nodes included. */
+    /** The field @p k, owned entries, hanging nodes included. */
     Vector
-    displacement_on(const Discretization &discretization) const;
+    field_on(const Discretization &discretization, const unsigned int k) const;
 
   private:
     using Transfer =
@@ -56,7 +56,7 @@ namespace Nacre
     const std::unique_ptr<FiniteElement<dim, spacedim>> fe_;
     DoFHandler<dim, spacedim>                           dof_handler_;
     const std::vector<bool>                             marked_;
-    Vector                                              values_;
+    std::vector<Vector>                                 values_;
     std::unique_ptr<Transfer>                           transfer_;
   };
 } // namespace Nacre

@@ -11,11 +11,14 @@
 #include <nacre/simulation/analysis.h>
 #include <nacre/simulation/discrete_shell.h>
 
+#include <optional>
+
 namespace Nacre
 {
   /**
-   * What buckling and vibration have in common: a shell in a linear state,
-   * eigenvalues with modes, their table and fields.
+   * What buckling and vibration have in common: a shell in a linear state, or
+   * in that where another run has ended, eigenvalues with modes, their table
+   * and fields.
    */
   class ModeAnalysis : public Analysis
   {
@@ -58,6 +61,22 @@ namespace Nacre
       double assembly = 0.;
     };
 
+    /** The state of `Analysis/Start from`, in equilibrium. */
+    struct StartState
+    {
+      /** Ghosted displacement (length), and du/dt along the curve. */
+      Vector u;
+      Vector velocity;
+      double time = 0.;
+    };
+
+    /** Null if the state is a linear one. */
+    const StartState *
+    start() const
+    {
+      return start_ ? &*start_ : nullptr;
+    }
+
     /** What is wrong with the problem on this mesh; throws. Collective. */
     virtual void
     check_problem(DiscreteShell &shell, const Prestress &prestress) const = 0;
@@ -94,6 +113,10 @@ namespace Nacre
     Log                &log_;
 
   private:
+    /** Find start_, if the problem has one. Collective. */
+    void
+    load_start_state(DiscreteShell &shell, const Recorder &recorder);
+
     void
     write_table(const Modes &modes, Recorder &recorder) const;
 
@@ -108,6 +131,8 @@ namespace Nacre
                  const Prestress     &prestress,
                  const DiscreteShell &shell,
                  Recorder            &recorder) const;
+
+    std::optional<StartState> start_;
   };
 } // namespace Nacre
 

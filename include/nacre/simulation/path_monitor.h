@@ -27,10 +27,14 @@ namespace Nacre
   public:
     /**
      * @param options with the name of the path's own files
+     * @param points_csv the table of the points of all paths
+     * @param branch the number of this one; 0: the primary path
      * @param saves whether the state may be saved: not where the mesh changes
      */
     PathMonitor(const MPI_Comm              communicator,
                 const OutputOptions        &options,
+                const std::string          &points_csv,
+                const int                   branch,
                 const PathParameters       &path,
                 const QuantitiesOfInterest &quantities,
                 Checkpoint                 &checkpoint,
@@ -60,9 +64,19 @@ namespace Nacre
     void
     finish(const PathState &state, const SolvedShell &shell);
 
-    /** A row of NAME_points.csv and a line for the user. */
+    /**
+     * A row in the table of points and a line for the user; the state with its
+     * mode as fields, `NAME_pointNUMBER.vtu`, and as a checkpoint of that name.
+     * @param mode of the point, ghosted
+     */
     void
-    observe_point(const PathPoint &point, const SolvedShell &shell);
+    observe_point(const PathPoint                     &point,
+                  const SolvedShell                   &shell,
+                  const TrilinosWrappers::MPI::Vector &mode);
+
+    /** Folder and name of the files of the point @p number, but the ending. */
+    static std::string
+    point_file(const OutputOptions &options, const unsigned int number);
 
     /** What has been written, for the end of the run. */
     std::string
@@ -78,6 +92,19 @@ namespace Nacre
     void
     print_line(const PathState &state, const std::vector<double> &values);
 
+    /** Keep the rows in the table of points up to this path's @p state. */
+    void
+    resume_points(const PathState &state);
+
+    /** A row of the table of points and the line that says the same. */
+    void
+    write_point(const PathPoint &point, const SolvedShell &shell);
+
+    /** About how many steps are left, if that is known. */
+    std::optional<double>
+    n_steps_left(const PathState           &state,
+                 const std::vector<double> &values) const;
+
     void
     write_fields(const PathState &state, const SolvedShell &shell);
 
@@ -86,6 +113,8 @@ namespace Nacre
 
     const MPI_Comm              communicator_;
     const OutputOptions         options_;
+    const std::string           points_csv_;
+    const int                   branch_;
     const PathParameters       &path_;
     const TimeGrid              grid_;
     const QuantitiesOfInterest &quantities_;
@@ -94,9 +123,12 @@ namespace Nacre
     const unsigned int checkpoint_steps_;
     Log               &log_;
     VtuOutput          vtu_output_;
+    VtuOutput          point_output_;
     CheckpointData     written_;
     bool               has_saved_ = false;
     Timer              timer_;
+    /** t of the step before. */
+    double last_time_ = 0.;
     /** The step where the timer started. */
     unsigned int start_step_ = 0;
     /** The rows before a restart with other quantities, if there was one. */

@@ -8,9 +8,11 @@
 #include <nacre/simulation/analysis.h>
 #include <nacre/simulation/checkpoint.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -20,8 +22,12 @@ namespace Nacre
 
   /**
    * A load path or a motion, with files of its own: a row for each step,
-   * fields, checkpoints. The study's table holds the last state. A static path
-   * may refine its mesh on the way, and then has no checkpoints.
+   * fields, checkpoints. A static path, or one whose t is unknown, may refine
+   * its mesh on the way, and then has no checkpoints.
+   *
+   * A curve of equilibria may have several branches, which are paths with files
+   * of their own, followed one after the other. The study's table holds the
+   * last state of the last one.
    */
   class PathRun : public Analysis
   {
@@ -31,6 +37,8 @@ namespace Nacre
             const ShellProblem       &problem,
             const AdaptiveRefinement &adaptive,
             Log                      &log);
+
+    ~PathRun() override;
 
     std::string
     name() const override
@@ -58,28 +66,62 @@ namespace Nacre
     void
     check_restart(const bool restart) const;
 
-    /** From @p state to the end, or to the failure that is returned. */
-    std::string
-    follow(std::unique_ptr<SteppedShell> &stepped,
-           PathState                     &state,
-           PathMonitor                   &monitor);
+    /** The end of a path, and why it failed, or "". */
+    struct PathEnd
+    {
+      PathState   state;
+      std::string failure;
+    };
 
     /**
-     * Refine the mesh of @p stepped where the error of @p state is large, and
-     * bring the state to equilibrium there, at the same load; or leave all as
-     * it is if the mesh is good enough.
+     * Follow the primary path, @p branch = 0, or a branch, with all its files.
+     * @param restart whether it goes on from a checkpoint of its own
+     */
+    PathEnd
+    follow_path(const int branch, const bool restart, Recorder &recorder);
+
+    /** The state that a path begins with, and the start of its files. */
+    PathState
+    begin(const int            branch,
+          const bool           restart,
+          const OutputOptions &options,
+          Checkpoint          &checkpoint,
+          PathMonitor         &monitor,
+          const Recorder      &recorder);
+
+    /** From @p state to the end, or to the failure that is returned. */
+    std::string
+    follow(PathState &state, PathMonitor &monitor, const Recorder &recorder);
+
+    /** Whether the path ends at @p state; tells why. */
+    bool
+    ends(const PathState &state, const QuantitiesOfInterest &quantities);
+
+    /**
+     * Take note of a point of a curve.
+     * @return PathCallbacks::observe_point
+     */
+    int
+    take_point(const PathPoint &point, PathMonitor &monitor);
+
+    /** The branches to follow if the primary path has @p n_found. */
+    std::vector<int>
+    branches(const unsigned int n_found) const;
+
+    /** The start of the branch @p number at its point. */
+    PathState
+    branch_start(const int number, const OutputOptions &primary);
+
+    /**
+     * Refine the mesh where the error of @p state is large, and bring the state
+     * to equilibrium there; or leave all as it is if the mesh is good enough.
      */
     void
-    refine(std::unique_ptr<SteppedShell> &stepped, PathState &state);
+    refine(const QuantitiesOfInterest &quantities, PathState &state);
 
-    /** Write what is left to write; throws the @p failure, if there is one. */
+    /** The row of the last @p state. */
     void
-    finish(SteppedShell      &stepped,
-           const PathState   &state,
-           const std::string &failure,
-           SolveRecord       &record,
-           PathMonitor       &monitor,
-           Recorder          &recorder);
+    add_row(const PathState &state, SolveRecord &record, Recorder &recorder);
 
     /**
      * The state that a path begins with other than the undeformed shell: that
@@ -100,9 +142,13 @@ namespace Nacre
     const ShellProblem       &problem_;
     const AdaptiveRefinement &adaptive_;
     Log                      &log_;
-    double                    assembly_seconds_ = 0.; // of the meshes before
-    unsigned int              n_refinements_    = 0;
-    bool                      has_warned_of_energy_ = false;
+    /** On the mesh of now. */
+    std::unique_ptr<SteppedShell> stepped_;
+    /** States of the primary path's bifurcation points, by their numbers. */
+    std::map<unsigned int, PathState> bifurcations_;
+    double       assembly_seconds_     = 0.; // of the meshes before
+    unsigned int n_refinements_        = 0;
+    bool         has_warned_of_energy_ = false;
   };
 } // namespace Nacre
 

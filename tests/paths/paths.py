@@ -1,0 +1,261 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Curves of equilibria: their points, ends, branches and files.
+
+  paths.py NACRE N_RANKS NAME   run one test
+  paths.py --list               names and numbers of ranks, a line each
+"""
+import math
+import os
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "runs"))
+from runs import Folder, check, near  # noqa: E402  (found by the line above)
+
+BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
+ARCH = str(BENCHMARKS / "arc_length_arch.prm")
+STRIP = str(BENCHMARKS / "arc_length_elastica.prm")
+# Semi-analytical: the largest and the smallest load, of 60.
+LARGEST, SMALLEST = 52.580408 / 60., 46.188430 / 60.
+NO_FIELDS = {"Study__Write_VTU": "false"}
+COARSE = {"Study__Degrees": "3", "Study__Name": "case", **NO_FIELDS}
+# The strip of the elastica, just beyond its bifurcation.
+SHORT = {"Study__Refinements": "0", "Analysis__End_time": "1.05",
+         "Study__Name": "strip", **NO_FIELDS}
+TESTS = {}
+
+
+def test(*ranks):
+    """Register a test and the numbers of ranks that it runs on."""
+    def add(function):
+        TESTS[function.__name__] = (function, ranks)
+        return function
+    return add
+
+
+def check_near(name, value, expected, tolerance):
+    check(near(float(value), expected, tolerance),
+          f"{name}: {value}, not {expected}")
+
+
+def check_same(name, rows, others, tolerance):
+    """All columns of two tables but what Newton's method took."""
+    check(len(rows) == len(others), f"{name}: {len(rows)}, {len(others)} rows")
+    for row, other in zip(rows, others):
+        for column in set(row) - {"iterations", "residual", "kind"}:
+            check(near(float(row[column]), float(other[column]), tolerance)
+                  or abs(float(row[column]) - float(other[column])) < 1e-9,
+                  f"{name}, {column}: {row} and {other}")
+
+
+@test(1)
+def point_files(folder):
+    """A point is written with its mode, and a path can begin there."""
+    text = folder.succeed(ARCH, Study__Degrees="3", Study__Name="case",
+                          Study__Refinements="0", Analysis__Maximum_points="1")
+    check("'Maximum points'" in text, text)
+    points = folder.rows("case_points.csv")
+    check(len(points) == 1 and points[0]["kind"] == "limit"
+          and points[0]["branch"] == "0", f"points {points}")
+    check('Name="mode"' in folder.read("case_point1.vtu"), "no mode")
+    check("case_point1.vtu" in folder.read("case_points.pvd"), "not listed")
+    folder.succeed(ARCH, Study__Degrees="3", Study__Name="held",
+                   Study__Refinements="0", Analysis__Type="static",
+                   Analysis__Load_factor=points[0]["time"],
+                   Analysis__Start_from="output/case_point1",
+                   Analysis__End_time="0.1", **NO_FIELDS)
+    check_near("w", folder.rows("held_path.csv")[0]["w"],
+               float(points[0]["w"]), 1e-9)
+
+
+@test(1)
+def ends(folder):
+    """A bound ends a path of any kind; t may fall first."""
+    for kind, time in (("arc length", 1), ("static", 0.8)):
+        text = folder.succeed(ARCH, **COARSE, Analysis__Type=kind,
+                              Analysis__Stop_where="load factor > 9, w < -0.05",
+                              Analysis__End_time=time)
+        w = folder.values("case_path.csv", "w")
+        check(w[-1] < -0.05 <= w[-2] and "path ends: w < -0.05" in text, text)
+    folder.succeed(ARCH, **COARSE, Analysis__Time_step="-0.1",
+                   Analysis__End_time="-0.4")
+    rows = folder.rows("case_path.csv")
+    check(float(rows[-1]["time"]) == -0.4 and float(rows[-1]["w"]) > 0.
+          and float(rows[1]["time"]) < 0., f"upward: {rows}")
+    folder.fail(ARCH, "--check", **COARSE, Analysis__Stop_where="z < 1",
+                expect=("Analysis/Stop where", "'z'", "load factor"))
+
+
+@test(1)
+def control(folder):
+    """The arch is pushed down through both limit points, and back."""
+    pushed = {**COARSE, "Analysis__Type": "displacement control",
+              "Analysis__Control": "w", "Analysis__Control_step": "0.03",
+              "Analysis__Control_values": "-0.33, -0.3",
+              "Analysis__Maximum_time_step": "0.1"}
+    folder.succeed(ARCH, **pushed)
+    rows, points = folder.rows("case_path.csv"), folder.rows("case_points.csv")
+    for k, row in enumerate(rows[:-1]):
+        check(abs(float(row["w"]) + 0.03 * k) < 1e-12, f"not as asked: {row}")
+    check(len(rows) == 13 and abs(float(rows[-1]["w"]) + 0.3) < 1e-12
+          and near(float(rows[-1]["time"]), float(rows[10]["time"]), 1e-7),
+          f"not the way back: {rows}")
+    check(len(points) == 2, f"points {points}")
+    for point, expected in zip(points, (LARGEST, SMALLEST)):
+        check_near(point["kind"], point["time"], expected, 1e-4)
+    folder.fail(ARCH, "--check", **dict(pushed, Analysis__Control="v"),
+                expect=("Analysis/Control", "'v'", "w"))
+    folder.fail(ARCH, "--check", **pushed,
+                Quantities__Quantities="w = energy",
+                expect=("Analysis/Control", "not linear", "arc length"))
+
+
+@test(1)
+def all_branches(folder):
+    """Each side of the strip's branch in files of its own; mirror images. A
+    run that goes on with what an earlier one has found ends up the same."""
+    folder.succeed(STRIP, **SHORT, Analysis__Switch_branch="all")
+    points = folder.rows("strip_points.csv")
+    check(len(points) == 1 and points[0]["kind"] == "bifurcation", f"{points}")
+    check_near("load", points[0]["load_factor"], 1., 1e-5)
+    paths = {name: folder.rows(f"strip{name}_path.csv")
+             for name in ("", "_branch1", "_branch-1")}
+    check(abs(float(paths[""][-1]["w"])) < 1e-6, "not the primary path")
+    check_near("start", paths["_branch1"][0]["time"],
+               float(points[0]["time"]), 1e-12)
+    ends = [float(paths[f"_branch{k}"][-1]["w"]) for k in (1, -1)]
+    check(ends[0] > 0.3 and near(ends[0], -ends[1], 1e-6), f"ends {ends}")
+    for name in ("_branch-1_path.csv", "_branch-1.checkpoint"):
+        (folder.path / "output" / f"strip{name}").unlink()
+    folder.succeed(STRIP, "--restart", **SHORT, Analysis__Switch_branch="all")
+    for name, rows in paths.items():
+        check_same(name, folder.rows(f"strip{name}_path.csv"), rows, 1e-12)
+
+
+@test(1, 2)
+def interrupted(folder):
+    """A path that was stopped halfway is the whole path; its points, too."""
+    whole = dict(COARSE, Study__Refinements="0", Analysis__Checkpoint_steps="1")
+    folder.succeed(ARCH, **whole)
+    rows, points = folder.rows("case_path.csv"), folder.rows("case_points.csv")
+    folder.succeed(ARCH, **whole, Analysis__Maximum_steps="7")
+    folder.succeed(ARCH, "--restart", **whole)
+    check_same("path", folder.rows("case_path.csv"), rows, 1e-9)
+    check_same("points", folder.rows("case_points.csv"), points, 1e-6)
+    if folder.ranks > 1:
+        return
+    controlled = dict(whole, Analysis__Type="displacement control",
+                      Analysis__Control="w",
+                      Analysis__Control_values="-0.4, -0.1, -0.3",
+                      Analysis__Control_step="0.1")
+    folder.succeed(ARCH, **controlled)
+    rows = folder.rows("case_path.csv")
+    folder.succeed(ARCH, **controlled, Analysis__Maximum_steps="5")
+    folder.succeed(ARCH, "--restart", **controlled)
+    check_same("control", folder.rows("case_path.csv"), rows, 1e-9)
+
+
+@test(1)
+def load_cases(folder):
+    """Half of the load first, then the rest by arc length: the same curve."""
+    folder.succeed(ARCH, **dict(COARSE, Study__Name="first"),
+                   Analysis__Type="static", Analysis__End_time="0.4")
+    folder.succeed(ARCH, **COARSE, Analysis__Start_from="output/first",
+                   Analysis__Load_factor="0.4 + t", Analysis__End_time="0.6")
+    first = folder.rows("case_path.csv")[0]
+    check_near("w", first["w"], folder.values("first_path.csv", "w")[-1], 1e-9)
+    points = folder.rows("case_points.csv")
+    check(len(points) == 2, f"points {points}")
+    for point, expected in zip(points, (LARGEST, SMALLEST)):
+        check_near(point["kind"], point["load_factor"], expected, 1e-4)
+
+
+@test(1)
+def refined(folder):
+    """A path whose mesh is refined passes the same limit points."""
+    text = folder.succeed(ARCH, **dict(COARSE, Study__Refinements="0"),
+                          Adaptive_refinement__Cycles="2",
+                          Adaptive_refinement__Every_steps="2",
+                          Analysis__Maximum_points="2")
+    check(text.count("refined after step") == 2, text)
+    points = folder.rows("case_points.csv")
+    check(len(points) == 2, f"points {points}")
+    for point, expected in zip(points, (LARGEST, SMALLEST)):
+        check_near(point["kind"], point["load_factor"], expected, 1e-3)
+
+
+def thrust_frequency(load):
+    """The lowest omega of w,xxxx + P w,xx = rho h omega^2 w, clamped at 0, with
+    w,xx = 0 and w,xxx + P w,x = 0 at 1; rho h = 0.002, P = load pi^2/4."""
+    p = load * math.pi ** 2 / 4
+
+    def determinant(omega):
+        root = math.sqrt(p * p / 4 + 0.002 * omega ** 2)
+        a, b = math.sqrt(root - p / 2), math.sqrt(root + p / 2)
+        sh, ch, s, c = math.sinh(a), math.cosh(a), math.sin(b), math.cos(b)
+        moment = a * a * ch + b * b * c, a * a * sh + a * b * s
+        force = (a ** 3 * sh - b ** 3 * s + p * (a * sh + b * s),
+                 a ** 3 * ch + a * b * b * c + p * (a * ch - a * c))
+        return moment[0] * force[1] - moment[1] * force[0]
+
+    low, high = 1., 85.
+    for _ in range(60):
+        middle = (low + high) / 2
+        if determinant(middle) * determinant(low) > 0.:
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+@test(1, 2)
+def modes_of_a_state(folder):
+    """At a state near the bifurcation the buckling load is the bifurcation;
+    frequencies are those of a strut under that thrust."""
+    def find(kind, start, *column, **settings):
+        folder.succeed(STRIP, **dict(SHORT, Study__Name="modes"),
+                       Analysis__Type=kind, Analysis__Switch_branch="none",
+                       Analysis__Start_from=f"output/{start}",
+                       Analysis__Number_of_modes="1", **settings)
+        return folder.values("modes_modes.csv", column[0])[0]
+
+    folder.succeed(STRIP, **dict(SHORT, Analysis__End_time="0.9"),
+                   Analysis__Switch_branch="none",
+                   Analysis__Maximum_time_step="0.4")
+    check_near("load", find("buckling", "strip", "load_factor"), 1., 1e-6)
+    if folder.ranks > 1:
+        return
+    folder.succeed(STRIP, **dict(SHORT, Study__Name="half",
+                                 Analysis__End_time="0.4"),
+                   Analysis__Type="static", Analysis__Switch_branch="none",
+                   Analysis__Maximum_time_step="0.4")
+    for name, load in (("half", 0.4), ("strip", 0.9)):
+        check_near(name, find("vibration", name, "omega", Section__Density="1"),
+                   thrust_frequency(load), 1e-4)
+    folder.fail(STRIP, "--check", **dict(SHORT, Study__Name="modes"),
+                Analysis__Type="buckling", Analysis__Switch_branch="none",
+                Analysis__Start_from="output/strip",
+                Analysis__Prestress="linear",
+                expect=("Analysis/Prestress", "Start from"))
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        for name, (_, ranks) in TESTS.items():
+            for n in ranks:
+                print(name, n)
+        return
+    program, ranks, name = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as path:
+        TESTS[name][0](Folder(os.path.abspath(program), int(ranks),
+                              pathlib.Path(path)))
+    print("OK")
+
+
+if __name__ == "__main__":
+    main()
