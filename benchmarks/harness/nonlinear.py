@@ -35,37 +35,37 @@ PROBLEMS = {
         "position": plate(10., 1.), "E": 1.2e6, "nu": 0., "h": 0.1,
         "symmetry": {}, "held": {}, "clamped": [("u", 0)],
         "edge_force": 4., "forces": [], "watch": ((1, 0), 3), "quantity": "w",
-        "cells_along_v": lambda n: 1, "meshes": (2, 4, 8, 16, 32)},
+        "cells_along_v": lambda n: 1, "meshes": (2, 4, 8)},
     "slit_annulus": {
         "position": annulus(6., 10.), "E": 21e6, "nu": 0., "h": 0.03,
         "symmetry": {}, "held": {}, "clamped": [("u", 0)],
         "edge_force": 3.2, "forces": [], "watch": ((1, 1), 3),
         "quantity": "wb", "cells_along_v": lambda n: max(1, n // 8),
-        "meshes": (16, 24, 32, 48)},
+        "meshes": (16, 24, 32)},
     "hemisphere": {
         "position": hemisphere(10., 18.), "E": 6.825e7, "nu": 0.3, "h": 0.04,
         "symmetry": {("u", 0): 1, ("u", 1): 0}, "held": {},
         "points": {(0, 0): (2,)},
         "forces": [((0, 0), 0, 200.), ((1, 0), 1, -200.)],
-        "watch": ((1, 0), 2), "quantity": "v", "meshes": (4, 6, 8, 12, 16),
+        "watch": ((1, 0), 2), "quantity": "v", "meshes": (4, 6, 8, 12),
         "settings": {"Boundary conditions/Points": "(R, 0, 0): z = 0"}},
     "pullout": {
         "position": cylinder(4.953, 5.175, 90., "y"), "E": 10.5e6,
         "nu": 0.3125, "h": 0.094,
         "symmetry": {("u", 0): 0, ("u", 1): 2, ("v", 1): 1}, "held": {},
         "forces": [((0, 1), 2, 10000.)], "watch": ((0, 1), 3),
-        "quantity": "wa", "meshes": (4, 8, 12, 16)},
+        "quantity": "wa", "meshes": (4, 8, 12)},
     "semicylinder": {
         "position": cylinder(101.6, 304.8, 90., "y"), "E": 2068.5, "nu": 0.3,
         "h": 3., "symmetry": {("u", 0): 0, ("u", 1): 2}, "held": {},
         "clamped": [("v", 1)], "forces": [((0, 0), 2, -1000.)],
-        "watch": ((0, 0), 3), "quantity": "w", "meshes": (4, 8, 12, 16, 24)},
+        "watch": ((0, 0), 3), "quantity": "w", "meshes": (4, 8, 12)},
     "roof": {
         "position": cylinder(2540., 254., 18. / math.pi, "y"), "E": 3102.75,
         "nu": 0.3, "h": 12.7, "symmetry": {("u", 0): 0, ("v", 1): 1},
         "held": {("u", 1): (0, 1, 2)}, "forces": [((0, 1), 2, -750.)],
         "watch": ((0, 1), 3), "quantity": "w", "end": 0.7,
-        "meshes": (1, 2, 4, 8)}}
+        "meshes": (1, 2, 4)}}
 
 
 def step(problem, numbers, n, m, axes):
@@ -152,6 +152,14 @@ def deviation(values, reference):
     return max(abs(abs(a) / abs(b) - 1.) for a, b in zip(values, reference))
 
 
+def reason(failure):
+    """The line of a failed program that says why."""
+    lines = [line.strip() for line in str(failure).splitlines()
+             if line.strip()]
+    errors = [line for line in lines if "error" in line.lower()]
+    return (errors or lines)[-1][:60]
+
+
 def series_rows(label, meshes, run_mesh, reference):
     """Rows of a series, to the first mesh below the limit."""
     rows = []
@@ -165,7 +173,7 @@ def series_rows(label, meshes, run_mesh, reference):
                 f"{len(values)} of {LEVELS} levels"
         except RunError as failure:
             error = None
-            row["deviation, %"] = "failed: " + str(failure).split("\n")[-1][:60]
+            row["deviation, %"] = "failed: " + reason(failure)
         rows.append(row)
         if error is not None and error <= LIMIT:
             break
@@ -188,7 +196,7 @@ def nonlinear(context):
                               meshes[-1])[0]
         series = {f"nacre, p = {degree}": lambda n, p=degree:
                   nacre_run(context, name, problem, p, n)
-                  for degree in ((3,) if context.quick else (2, 3, 4))}
+                  for degree in ((3,) if context.quick else (2, 3))}
         if calculix is not None:
             for element in ("S8R",) if context.quick else ("S8R", "S8"):
                 series[f"CalculiX {element}"] = lambda n, e=element: \
@@ -200,7 +208,7 @@ def nonlinear(context):
         "nonlinear", "Paths of large rotations to 1.5 % of the converged curve",
         ["problem", "series", "cells along u", "iterations", "cpu_s",
          "deviation, %"], table,
-        [f"{LEVELS} levels of the load; the deviation is the largest of a level,"
-         " relative to nacre's value there with p = 4 on the finest mesh",
+        [f"{LEVELS} levels of the load; the deviation is the largest of a "
+         "level, relative to nacre's value there, p = 4, the finest mesh",
          "each series ends with its first mesh below 1.5 %, or its finest",
          "CPU seconds: of nacre's analysis, of CalculiX' program"])
