@@ -152,7 +152,7 @@ CASES = {
     "arch_hinged": ("path_arch_hinged", {STEPS: "11"}, hinged),
     "arch_second_branch": ("path_arch_hinged", {
         "Analysis/Switch branch": "1", STEPS: "10"}, second_branch),
-    "arch_deep": ("path_arch_deep", {SUBDIVISIONS: "8, 1", STEPS: "12"}, deep),
+    "arch_deep": ("path_arch_deep", {SUBDIVISIONS: "8, 1", STEPS: "20"}, deep),
     "ring": ("path_ring", {SUBDIVISIONS: "6, 1"}, ring),
     "plate": ("path_plate", {SUBDIVISIONS: "2, 2"}, plate),
     "cap_6": ("path_cap", {STEPS: "4"}, cap_6),
