@@ -175,8 +175,8 @@ CASES = {
     "cap_static": ("dynamics_cap", {
         "Analysis/Type": "static", "Analysis/Time step": "1",
         "Analysis/End time": "1"}, values(1e-4, w=-0.0365187)),
-    "sphere_breathes": ("dynamics_sphere", {SUBDIVISIONS: "1"},
-                        values(1e-3, ratio=1.)),
+    "sphere_breathes": ("dynamics_sphere", {},
+                        values(3e-4, ratio=1.)),
     "tangent_prestress_clamped": ("buckling_prestress", {
         "Study/Degrees": "4", SUBDIVISIONS: "20, 3",
         "Constants": "R = 1, L = 1, n = 12, "
