@@ -152,7 +152,7 @@ CASES = {
     "arch_hinged": ("path_arch_hinged", {STEPS: "11"}, hinged),
     "arch_second_branch": ("path_arch_hinged", {
         "Analysis/Switch branch": "1", STEPS: "10"}, second_branch),
-    "arch_deep": ("path_arch_deep", {SUBDIVISIONS: "8, 1", STEPS: "12"}, deep),
+    "arch_deep": ("path_arch_deep", {SUBDIVISIONS: "8, 1", STEPS: "20"}, deep),
     "ring": ("path_ring", {SUBDIVISIONS: "6, 1"}, ring),
     "plate": ("path_plate", {SUBDIVISIONS: "2, 2"}, plate),
     "cap_6": ("path_cap", {STEPS: "4"}, cap_6),
@@ -175,8 +175,8 @@ CASES = {
     "cap_static": ("dynamics_cap", {
         "Analysis/Type": "static", "Analysis/Time step": "1",
         "Analysis/End time": "1"}, values(1e-4, w=-0.0365187)),
-    "sphere_breathes": ("dynamics_sphere", {SUBDIVISIONS: "1"},
-                        values(1e-3, ratio=1.)),
+    "sphere_breathes": ("dynamics_sphere", {},
+                        values(3e-4, ratio=1.)),
     "tangent_prestress_clamped": ("buckling_prestress", {
         "Study/Degrees": "4", SUBDIVISIONS: "20, 3",
         "Constants": "R = 1, L = 1, n = 12, "
