@@ -54,8 +54,11 @@ namespace Nacre
   {
     Assert(control_.has_value() == parameters_.controls_displacement(),
            ExcInternalError());
-    while (!is_end(state))
+    while (true)
       {
+        count_controls(state);
+        if (is_end(state))
+          return "";
         double      end = state.time;
         PathAttempt attempt;
         try
@@ -85,7 +88,19 @@ namespace Nacre
         if (callbacks.ends && callbacks.ends(state))
           return "";
       }
-    return "";
+  }
+
+  void
+  EquilibriumCurve::count_controls(PathState &state) const
+  {
+    if (!control_ || state.begins_branch)
+      return;
+    const auto  &values = parameters_.control_values;
+    const double found  = controlled(state.motion.u);
+    while (state.n_controls < values.size() &&
+           std::abs(values[state.n_controls] - found) <=
+             1e-9 * parameters_.control_step + 1e-14 * std::abs(found))
+      ++state.n_controls;
   }
 
   void
@@ -97,13 +112,6 @@ namespace Nacre
     state.time = end;
     std::move(attempt).accept(system_, state);
     step_control_.accept(state, state.iterations);
-    if (control_ && !state.begins_branch)
-      {
-        const double target = parameters_.control_values[state.n_controls];
-        if (std::abs(target - controlled(state.motion.u)) <=
-            1e-9 * parameters_.control_step)
-          ++state.n_controls;
-      }
     state.begins_branch = false;
     state.motion.a      = 0.;
   }

@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <type_traits>
 
@@ -368,11 +369,13 @@ namespace Nacre
       triangles ?
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
         Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
-    CellResults        results(state, points, true);
-    const ShellState   moved{discretization,
+    CellResults                 results(state, points, true);
+    const ShellState            moved{discretization,
                            state.model,
                            has_mode_ ? *mode : state.displacement};
-    StrainValues       mode_values(moved, points);
+    std::optional<StrainValues> mode_values;
+    if (has_mode_)
+      mode_values.emplace(moved, points);
     const auto         list         = fields(n_layers_);
     const unsigned int n_components = get_dataset_names().size();
     const double       rank =
@@ -384,7 +387,7 @@ namespace Nacre
         {
           results.reinit(cell);
           if (has_mode_)
-            mode_values.reinit(cell);
+            mode_values->reinit(cell);
           Patch patch;
           patch.patch_index          = patches_.size();
           patch.reference_cell       = cell->reference_cell();
@@ -403,7 +406,7 @@ namespace Nacre
                 patch.data(row++, q) =
                   error_indicators[cell->active_cell_index()];
               for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
-                patch.data(row++, q) = mode_values.displacement(q)[c];
+                patch.data(row++, q) = mode_values->displacement(q)[c];
               for (unsigned int c = 0; c < spacedim; ++c)
                 patch.data(row++, q) = results.position(q)[c];
             }

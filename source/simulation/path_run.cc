@@ -260,9 +260,11 @@ namespace Nacre
                         checkpoint,
                         !adaptive_.is_on(),
                         log_);
-    const bool  goes_on =
+    // The same on all ranks.
+    const bool exists = std::filesystem::exists(options.file(".checkpoint"));
+    const bool goes_on =
       restart &&
-      (branch == 0 || std::filesystem::exists(options.file(".checkpoint")));
+      (branch == 0 || Utilities::MPI::max(exists ? 1u : 0u, communicator_) > 0);
     PathEnd end{begin(branch, goes_on, options, checkpoint, monitor, recorder),
                 ""};
     if (!goes_on || !ends(end.state, recorder.quantities()))

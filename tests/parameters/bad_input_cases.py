@@ -119,8 +119,6 @@ case("arc_length_no_step", ["Analysis/Time step", "zero"],
      {**ARC, "Analysis/Time step": "0"})
 case("static_downward", ["Analysis/Time step", "not positive"],
      {"Analysis/Type": "static", "Analysis/Time step": "-0.1"})
-case("state_of_linear_kinematics", ["Discretization/Kinematics", "'finite'"],
-     {"Analysis/Type": "buckling", "Analysis/Start from": "output/x"})
 case("analysis_maximum_step", ["Analysis/Maximum time step", "smaller"],
      {"Analysis/Type": "static", "Analysis/Maximum time step": "0.01"})
 case("analysis_load_factor", ["Analysis/Load factor", "s"],

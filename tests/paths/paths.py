@@ -141,9 +141,12 @@ def all_branches(folder):
 def interrupted(folder):
     """A path that was stopped halfway is the whole path; its points, too."""
     whole = dict(COARSE, Study__Refinements="0", Analysis__Checkpoint_steps="1")
+    if folder.ranks > 1:
+        whole["Analysis__Maximum_points"] = "1"
     folder.succeed(ARCH, **whole)
     rows, points = folder.rows("case_path.csv"), folder.rows("case_points.csv")
-    folder.succeed(ARCH, **whole, Analysis__Maximum_steps="7")
+    folder.succeed(ARCH, **whole,
+                   Analysis__Maximum_steps="7" if folder.ranks == 1 else "3")
     folder.succeed(ARCH, "--restart", **whole)
     check_same("path", folder.rows("case_path.csv"), rows, 1e-9)
     check_same("points", folder.rows("case_points.csv"), points, 1e-6)
@@ -151,7 +154,7 @@ def interrupted(folder):
         return
     controlled = dict(whole, Analysis__Type="displacement control",
                       Analysis__Control="w",
-                      Analysis__Control_values="-0.4, -0.1, -0.3",
+                      Analysis__Control_values="0, -0.4, -0.1, -0.3",
                       Analysis__Control_step="0.1")
     folder.succeed(ARCH, **controlled)
     rows = folder.rows("case_path.csv")
@@ -242,6 +245,58 @@ def modes_of_a_state(folder):
                 Analysis__Start_from="output/strip",
                 Analysis__Prestress="linear",
                 expect=("Analysis/Prestress", "Start from"))
+
+
+TUBE = """\
+set Constants = L = 0.3, D = 1e-6/12/(1 - 0.3^2)
+subsection Study
+  set Degrees     = 3
+  set Refinements = 0
+  set Write VTU   = false
+end
+subsection Mid-surface
+  set Surface      = expression
+  set Subdivisions = 1, 6
+  subsection expression
+    set Position = u, cos(v), -sin(v)
+    set Range u  = 0, L
+    set Range v  = 0, pi/2
+  end
+end
+subsection Section
+  set Young's modulus = 1
+  set Poisson's ratio = 0.3
+  set Thickness       = 0.01
+end
+subsection Discretization
+  set Kinematics = finite
+end
+subsection Analysis
+  set Type            = static
+  set End time        = 0.4
+  set Time step       = 0.4
+  set Number of modes = 1
+end
+subsection Boundary conditions
+  set Edges = u=0, u=1, v=0, v=1: symmetry
+end
+subsection Loads
+  set Pressure         = -4*D
+  set Pressure follows = true
+end
+"""
+
+
+@test(1)
+def following_pressure(folder):
+    """A long tube buckles at p R^3/D = 3, whose pressure grows with t: the
+    load's own stiffness is part of the tangent and of its rate."""
+    folder.write("tube.prm", TUBE)
+    folder.succeed("tube.prm")
+    folder.succeed("tube.prm", Study__Name="modes", Analysis__Type="buckling",
+                   Analysis__Start_from="output/tube")
+    check_near("t", folder.values("modes_modes.csv", "load_factor")[0], 0.75,
+               5e-4)
 
 
 def main():

@@ -89,7 +89,7 @@ case("multigrid", ["'multigrid' has no factors", "vibration"],
      {**VIBRATION, "Linear solver/Solver": "multigrid"})
 case("adaptive", ["Adaptive refinement/Cycles", "linear analysis"],
      {"Adaptive refinement/Cycles": "2"})
-case("start_from", ["Start from", "buckling", "undeformed"],
+case("start_from", ["Start from", "buckling", "'finite'"],
      {A + "Start from": "output/other"})
 case("initial_velocity", ["Initial velocity", "Type = vibration"],
      {**VIBRATION, A + "Initial velocity": "1, 0, 0"})

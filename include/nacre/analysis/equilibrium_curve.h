@@ -68,6 +68,10 @@ namespace Nacre
     bool
     is_beyond_end(const double time) const;
 
+    /** Count the values of the controlled quantity that were reached. */
+    void
+    count_controls(PathState &state) const;
+
     /** Q(u) of the quantity that is controlled. */
     double
     controlled(const Vector &u) const
