@@ -551,8 +551,9 @@ namespace Nacre
           for (const unsigned int q : fe_values.quadrature_point_indices())
             {
               const Point<spacedim> x = fe_values.quadrature_point(q);
-              const auto [k_n, k_t]   = foundation_->stiffness(x);
-              const auto   &J         = fe_values.jacobian(q);
+              const auto [k_n, k_t] =
+                foundation_->stiffness({x, cell->material_id()});
+              const auto   &J = fe_values.jacobian(q);
               const Vector3 a_1({J[0][0], J[1][0], J[2][0]});
               const Vector3 a_2({J[0][1], J[1][1], J[2][1]});
               const Vector3 t0 = unit(cross_product_3d(a_1, a_2));

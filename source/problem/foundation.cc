@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
+#include <nacre/mechanics/section_regions.h>
 #include <nacre/problem/foundation.h>
 
 #include <algorithm>
@@ -37,11 +38,23 @@ namespace Nacre
     }
   } // namespace
 
-  std::array<double, 2>
-  Foundation::stiffness(const Point<3> &point) const
+  bool
+  Foundation::is_zero() const
   {
-    return {{checked_spring(normal, point, "Normal stiffness"),
-             checked_spring(tangential, point, "Tangential stiffness")}};
+    return springs.is_zero() &&
+           std::all_of(of_region.begin(), of_region.end(), [](const auto &own) {
+             return !own || own->is_zero();
+           });
+  }
+
+  std::array<double, 2>
+  Foundation::stiffness(const SectionPoint &point) const
+  {
+    const bool has_own =
+      point.region() < of_region.size() && of_region[point.region()];
+    const Springs &here = has_own ? *of_region[point.region()] : springs;
+    return {{checked_spring(here.normal, point, "Normal stiffness"),
+             checked_spring(here.tangential, point, "Tangential stiffness")}};
   }
 
   double
@@ -85,6 +98,11 @@ namespace Nacre
                   tangential_text_,
                   "Of springs along the undeformed surface. "
                   "Units: force/length^3.");
+    add_parameter("Regions",
+                  regions_text_,
+                  "Other stiffnesses in regions of the mesh, by the names of "
+                  "its groups of cells (mesh files only): 'soil: normal = 100, "
+                  "tangential = 5; air: normal = 0'. Units: as above.");
     add_parameter("Tension free",
                   tension_free_,
                   "no: the normal springs push and pull; below: they lie on "
@@ -94,12 +112,43 @@ namespace Nacre
   }
 
   Foundation
-  FoundationParameters::make(const Constants &constants) const
+  FoundationParameters::make(const Constants   &constants,
+                             const MeshRegions &regions) const
   {
-    return {Expression(normal_text_, "Foundation/Normal stiffness", constants),
-            Expression(tangential_text_,
-                       "Foundation/Tangential stiffness",
-                       constants),
-            tension_free_};
+    const std::string                       section = "Foundation/";
+    const std::string                       where   = section + "Regions";
+    const std::vector<std::string>          keys    = {"normal", "tangential"};
+    std::vector<std::string>                names;
+    std::vector<std::array<std::string, 2>> texts;
+    for (const auto &entry :
+         Text::entries(regions_text_, where, "region", "soil: normal = 100"))
+      for (const auto &name : entry.names)
+        {
+          names.push_back(Text::unquoted(name));
+          texts.push_back({{normal_text_, tangential_text_}});
+          for (const auto &item : Text::split(entry.value, ',', where))
+            {
+              const auto [key, text] = Text::key_and_value(item);
+              const auto found       = std::find(keys.begin(), keys.end(), key);
+              AssertThrow(found != keys.end(),
+                          ExcMessage(
+                            Text::unknown_name(where, "value", key, keys)));
+              texts.back()[found - keys.begin()] = text;
+            }
+        }
+    Foundation result{
+      {Expression(normal_text_, section + "Normal stiffness", constants),
+       Expression(tangential_text_,
+                  section + "Tangential stiffness",
+                  constants)},
+      tension_free_};
+    for (const unsigned int k : assign_regions(regions, names, where))
+      if (k == numbers::invalid_unsigned_int)
+        result.of_region.emplace_back();
+      else
+        result.of_region.emplace_back(
+          Foundation::Springs{Expression(texts[k][0], where, constants),
+                              Expression(texts[k][1], where, constants)});
+    return result;
   }
 } // namespace Nacre

@@ -171,7 +171,7 @@ namespace Nacre
     model.kinematics     = discretization_.kinematics();
     model.eta            = shell_case.eta;
     model.result_axes    = result_axes_.make(constants);
-    model.foundation     = foundation_.make(constants);
+    model.foundation = foundation_.make(constants, model.midsurface.regions());
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);

@@ -46,6 +46,8 @@ case("foundation_linear", ["Tension free: 'below' is nonlinear", "static"],
 case("foundation_holds_no_motion_in_plane",
      ["shell can move freely", "translation along (1, 0, 0)"],
      {F + "Normal stiffness": "1", "Boundary conditions/Edges": ""})
+case("foundation_of_no_region", ["Foundation/Regions", "'soil'"],
+     {F + "Regions": "soil: normal = 1"})
 case("strain_of_two", ["Initial strain/Strain: '1, 2' has 2 components"],
      {S + "Strain": "1, 2"})
 case("strain_corotational", ["Initial strain", "choose finite"],

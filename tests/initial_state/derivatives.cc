@@ -53,7 +53,7 @@ struct GrownShell : NoParameters
     ParameterAcceptor::prm.parse_input_from_string(text);
     ParameterAcceptor::parse_all_parameters();
     section.prepare({});
-    springs = foundation.make({});
+    springs = foundation.make({}, MeshRegions());
     ShellParts parts(section,
                      conditions,
                      loads,

@@ -5,9 +5,16 @@
 #define nacre_problem_foundation_h
 
 #include <nacre/base/expression.h>
+#include <nacre/base/mesh_region.h>
 #include <nacre/base/selection.h>
+#include <nacre/mechanics/section_law.h>
 
 #include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -36,9 +43,22 @@ namespace Nacre
   struct Foundation
   {
     /** Functions of the point (force/length^3). */
-    Expression  normal;
-    Expression  tangential;
+    struct Springs
+    {
+      Expression normal;
+      Expression tangential;
+
+      bool
+      is_zero() const
+      {
+        return normal.is_zero() && tangential.is_zero();
+      }
+    };
+
+    Springs     springs;
     TensionFree tension_free = TensionFree::no;
+    /** Of the mesh's regions; none, or beyond the end: springs. */
+    std::vector<std::optional<Springs>> of_region = {};
 
     /** A force (force/length^2) or an energy with its derivative. */
     struct Answer
@@ -47,22 +67,20 @@ namespace Nacre
       double stiffness = 0.;
     };
 
+    /** Whether there are no springs anywhere. */
     bool
-    is_zero() const
-    {
-      return normal.is_zero() && tangential.is_zero();
-    }
+    is_zero() const;
 
     /** Whether forces aren't linear in displacements. */
     bool
     is_nonlinear() const
     {
-      return tension_free != TensionFree::no && !normal.is_zero();
+      return tension_free != TensionFree::no && !is_zero();
     }
 
     /** (k_n, k_t) at @p point; throws if one is negative. */
     std::array<double, 2>
-    stiffness(const Point<3> &point) const;
+    stiffness(const SectionPoint &point) const;
 
     /** Energy per area of the normal springs of the stiffness @p k. */
     double
@@ -85,13 +103,15 @@ namespace Nacre
   public:
     FoundationParameters();
 
+    /** Throws for what is no expression, and for regions that aren't there. */
     Foundation
-    make(const Constants &constants) const;
+    make(const Constants &constants, const MeshRegions &regions) const;
 
   private:
     std::string normal_text_     = "0";
     std::string tangential_text_ = "0";
-    TensionFree tension_free_    = TensionFree::no;
+    std::string regions_text_;
+    TensionFree tension_free_ = TensionFree::no;
   };
 } // namespace Nacre
 
