@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 FILES = ("peers_meshes", "peers", "assembly", "direct", "multigrid",
-         "multigrid_iterations", "multigrid_others", "scaling")
+         "multigrid_iterations", "multigrid_others", "scaling", "nonlinear")
 
 
 def rows(file):
@@ -85,7 +85,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         command = [run, "--quick", "--nacre", nacre, "--output", folder,
                    "--only", "peers,assembly,direct", "--only",
-                   "multigrid,scaling,adaptive"]
+                   "multigrid,scaling,adaptive,nonlinear"]
         done = subprocess.run(command, capture_output=True, text=True,
                               check=False)
         check(done.returncode == 0, done.stdout + done.stderr)
