@@ -317,15 +317,13 @@ namespace Nacre
   PathRun::branches(const unsigned int n_found) const
   {
     const BranchChoice &choice = problem_.path.branches;
-    if (!choice.has_several())
-      return {};
     if (choice.n_bifurcations() > n_found)
       log_.warning(
         "Analysis/Switch branch: the primary path has only " +
         std::to_string(n_found) +
         (n_found == 1 ? " bifurcation point; " : " bifurcation points; ") +
         "the branches of others are left out.");
-    return choice.branches(n_found);
+    return choice.has_several() ? choice.branches(n_found) : std::vector<int>();
   }
 
   PathState

@@ -57,8 +57,10 @@ def check_same(name, rows, others, tolerance):
 def point_files(folder):
     """A point is written with its mode, and a path can begin there."""
     text = folder.succeed(ARCH, Study__Degrees="3", Study__Name="case",
-                          Study__Refinements="0", Analysis__Maximum_points="1")
+                          Study__Refinements="0", Analysis__Maximum_points="1",
+                          Analysis__Switch_branch="1")
     check("'Maximum points'" in text, text)
+    check("only 0 bifurcation points" in text, f"no warning: {text}")
     points = folder.rows("case_points.csv")
     check(len(points) == 1 and points[0]["kind"] == "limit"
           and points[0]["branch"] == "0", f"points {points}")
