@@ -73,15 +73,18 @@ namespace Nacre
                               "vibration has 'omega' and 'frequency'." :
                               ": 'omega' and 'frequency' belong to Type = "
                               "vibration; buckling has 'load factor'.")));
-    AssertThrow(
-      quantity.mode > modes->n_below &&
-        quantity.mode - modes->n_below <= modes->values.size(),
-      ExcMessage(quantity.where + ": the mode " +
-                 std::to_string(quantity.mode) + " is not among those found, " +
-                 std::to_string(modes->n_below + 1) + " to " +
-                 std::to_string(modes->n_below + modes->values.size()) +
-                 "; 'Analysis/Number of modes' tells how many are "
-                 "sought."));
+    const unsigned int last = modes->n_below + modes->values.size();
+    AssertThrow(quantity.mode > modes->n_below && quantity.mode <= last,
+                ExcMessage(
+                  quantity.where + ": the mode " +
+                  std::to_string(quantity.mode) + " is not among those found" +
+                  (last == modes->n_below ?
+                     ": none is in the range, below which there are " +
+                       std::to_string(last) :
+                     ", " + std::to_string(modes->n_below + 1) + " to " +
+                       std::to_string(last)) +
+                  "; 'Analysis/Number of modes' and 'Analysis/Range of modes' "
+                  "tell which are sought."));
     const unsigned int k = quantity.mode - modes->n_below - 1;
     if (quantity.kind == ModeKind::multiplicity)
       return modes->multiplicities[k];

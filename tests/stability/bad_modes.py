@@ -63,6 +63,10 @@ case("no_density", ["Section/Density: 0", "needs a positive one"],
      {**VIBRATION, "Section/Density": "0"}, args=["--check"])
 case("too_many_modes", ["Number of modes: 500", "unconstrained degrees"],
      {A + "Number of modes": "500"}, args=["--check"])
+case("no_mode_in_range", ["'o'", "none is in the range", "Range of modes"],
+     {**VIBRATION, "Section/Density": "1", LOAD: "",
+      A + "Range of modes": "1e6, 1.1e6",
+      "Quantities/Quantities": "o = omega 1"})
 case("no_prestress", ["Analysis/Prestress", "buckling needs one"],
      {A + "Prestress": "none"})
 case("prestress_of_no_load", ["Analysis/Prestress", "nothing acts", "none"],
