@@ -7,15 +7,13 @@
   paths.py --list               names and numbers of ranks, a line each
 """
 import math
-import os
 import pathlib
 import sys
-import tempfile
 
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "runs"))
-from runs import Folder, check, near  # noqa: E402  (found by the line above)
+from runs import check, main, near  # noqa: E402  (found by the line above)
 
 BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
 ARCH = str(BENCHMARKS / "arc_length_arch.prm")
@@ -301,18 +299,5 @@ def following_pressure(folder):
                5e-4)
 
 
-def main():
-    if sys.argv[1:] == ["--list"]:
-        for name, (_, ranks) in TESTS.items():
-            for n in ranks:
-                print(name, n)
-        return
-    program, ranks, name = sys.argv[1:]
-    with tempfile.TemporaryDirectory() as path:
-        TESTS[name][0](Folder(os.path.abspath(program), int(ranks),
-                              pathlib.Path(path)))
-    print("OK")
-
-
 if __name__ == "__main__":
-    main()
+    main(TESTS)

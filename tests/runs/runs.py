@@ -681,18 +681,19 @@ def full_disk(folder):
                     limit=20, expect=("case_path.csv", "is the disk full?"))
 
 
-def main():
+def main(tests):
+    """List the tests (name: function, numbers of ranks), or run one."""
     if sys.argv[1:] == ["--list"]:
-        for name, (_, ranks) in TESTS.items():
+        for name, (_, ranks) in tests.items():
             for n in ranks:
                 print(name, n)
         return
     program, ranks, name = sys.argv[1:]
     with tempfile.TemporaryDirectory() as path:
-        TESTS[name][0](Folder(os.path.abspath(program), int(ranks),
+        tests[name][0](Folder(os.path.abspath(program), int(ranks),
                               pathlib.Path(path)))
     print("OK")
 
 
 if __name__ == "__main__":
-    main()
+    main(TESTS)
