@@ -338,7 +338,7 @@ namespace Nacre
           break;
         const PathState &low = bracket.low, &high = bracket.high;
         const double     scale =
-          std::max(std::abs(low.time), parameters_.time_step);
+          std::max(std::abs(low.time), std::abs(parameters_.time_step));
         is_found = std::abs(high.time - low.time) <= 1e-6 * scale &&
                    bracket.size <= 1e-4;
         crossing = bracket.crossing();
@@ -373,7 +373,8 @@ namespace Nacre
   {
     PathState state = interpolate(bracket.low, bracket.high, crossing, normal);
     PathState exact(state);
-    const double scale = std::max(std::abs(state.time), parameters_.time_step);
+    const double scale =
+      std::max(std::abs(state.time), std::abs(parameters_.time_step));
     if (settle(exact, 5).empty() &&
         std::abs(exact.time - state.time) <=
           std::max(1e-5 * scale,
