@@ -241,19 +241,27 @@ namespace Nacre
                              false);
       ShellEdgeValues edge(discretization);
       Dofs            dofs(discretization.node_dofs().size());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned() && found.empty())
-          {
-            values.reinit_frames(cell);
-            cell->get_dof_indices(dofs);
-            found =
-              check_cell(values, lattice, before, after, allowed_bend, dofs);
-            for (const auto f : cell->face_indices())
-              if (before != nullptr && found.empty() &&
-                  edge.reinit_to_neighbor(cell, f))
-                found = check_edge(edge, *before, after);
-          }
+      for (const CellPart &part : discretization.owned_parts())
+        {
+          if (!found.empty())
+            break;
+          // Beyond a part of a divided cell its polynomials mean nothing.
+          if (!part.is_cut())
+            {
+              values.reinit_frames(part);
+              discretization.get_dof_indices(part, dofs);
+              found =
+                check_cell(values, lattice, before, after, allowed_bend, dofs);
+            }
+          if (before == nullptr ||
+              part.index() != part.cell->active_cell_index())
+            continue;
+          for (const auto f : part.cell->face_indices())
+            edge.for_pieces_to_neighbor(part.cell, f, [&](const auto &piece) {
+              if (found.empty())
+                found = check_edge(piece, *before, after);
+            });
+        }
       for (const auto &text :
            Utilities::MPI::all_gather(discretization.communicator(), found))
         if (!text.empty())

@@ -242,27 +242,25 @@ namespace Nacre
     ShellCellValues values(discretization_, element.full_quadrature(), false);
     std::vector<types::global_dof_index> dofs(values.n_dofs());
     double                               largest = 0.;
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          values.reinit_frames(cell);
-          const auto &shapes = values.shapes();
-          for (unsigned int q = 0; q < values.n_points(); ++q)
-            {
-              std::array<Tensor<1, spacedim>, 2> du;
-              for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-                for (unsigned int c = 0; c < spacedim; ++c)
-                  for (unsigned int alpha = 0; alpha < 2; ++alpha)
-                    du[alpha][c] +=
-                      shapes.gradient(q, a)[alpha] * u(dofs[values.dof(a, c)]);
-              const auto &a_con = values.frame(q).a_con;
-              largest           = std::max(largest,
-                                 du[0].norm() * a_con[0].norm() +
-                                   du[1].norm() * a_con[1].norm());
-            }
-        }
+    for (const CellPart &part : discretization_.owned_parts())
+      {
+        discretization_.get_dof_indices(part, dofs);
+        values.reinit_frames(part);
+        const auto &shapes = values.shapes();
+        for (unsigned int q = 0; q < values.n_points(); ++q)
+          {
+            std::array<Tensor<1, spacedim>, 2> du;
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                for (unsigned int alpha = 0; alpha < 2; ++alpha)
+                  du[alpha][c] +=
+                    shapes.gradient(q, a)[alpha] * u(dofs[values.dof(a, c)]);
+            const auto &a_con = values.frame(q).a_con;
+            largest           = std::max(largest,
+                               du[0].norm() * a_con[0].norm() +
+                                 du[1].norm() * a_con[1].norm());
+          }
+      }
     return Utilities::MPI::max(largest, discretization_.communicator());
   }
 

@@ -191,23 +191,21 @@ namespace Nacre
     const auto &node_dofs = discretization_.node_dofs();
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     run_on_all_ranks(discretization_.communicator(), [&]() {
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            const auto nodes = discretization_.node_positions(cell);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                {
-                  const auto i = dofs[node_dofs[spacedim * a + c]];
-                  if (discretization_.locally_owned_dofs().is_element(i))
-                    values(i) = function(nodes[a])[c];
-                }
-          }
+      for (const CellPart &part : discretization_.owned_parts())
+        {
+          discretization_.get_dof_indices(part, dofs);
+          const auto nodes = discretization_.node_positions(part);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const auto i = dofs[node_dofs[spacedim * a + c]];
+                if (discretization_.locally_owned_dofs().is_element(i))
+                  values(i) = function(nodes[a])[c];
+              }
+        }
     });
     values.compress(VectorOperation::insert);
-    discretization_.hanging_node_constraints().distribute(values);
+    discretization_.node_constraints().distribute(values);
     return values;
   }
 
@@ -420,22 +418,20 @@ namespace Nacre
     const auto     &node_dofs = discretization_.node_dofs();
     const auto     &owned     = discretization_.locally_owned_dofs();
     std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          const auto nodes = discretization_.node_positions(cell);
-          for (unsigned int k = 0; k < dofs.size(); ++k)
-            {
-              const auto i = dofs[node_dofs[k]];
-              if (owned.is_element(i) && std::abs(v(i)) > largest)
-                {
-                  largest  = std::abs(v(i));
-                  position = nodes[k / spacedim];
-                }
-            }
-        }
+    for (const CellPart &part : discretization_.owned_parts())
+      {
+        discretization_.get_dof_indices(part, dofs);
+        const auto nodes = discretization_.node_positions(part);
+        for (unsigned int k = 0; k < dofs.size(); ++k)
+          {
+            const auto i = dofs[node_dofs[k]];
+            if (owned.is_element(i) && std::abs(v(i)) > largest)
+              {
+                largest  = std::abs(v(i));
+                position = nodes[k / spacedim];
+              }
+          }
+      }
     std::pair<double, Point<spacedim>> found(-1., position);
     for (const auto &other :
          Utilities::MPI::all_gather(discretization_.communicator(),

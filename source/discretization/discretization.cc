@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/nodal_mapping.h>
+#include <nacre/problem/cuts.h>
 #include <nacre/problem/midsurface.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -37,6 +39,34 @@ namespace Nacre
                                  const MPI_Comm     communicator,
                                  const Element     &element,
                                  const unsigned int mapping_degree,
+                                 const unsigned int n_refinements,
+                                 const Cuts        &cuts)
+    : Discretization(midsurface,
+                     communicator,
+                     element,
+                     mapping_degree,
+                     n_refinements)
+  {
+    if (cuts.is_empty())
+      return;
+    AssertThrow(mapping_degree == 0 || mapping_degree == degree() ||
+                  element.type != ElementType::lagrange,
+                ExcMessage("Discretization/Mapping degree: " +
+                           std::to_string(mapping_degree) +
+                           "; with cuts the geometry is isoparametric, 0."));
+    cut(cuts,
+        midsurface.has_chart() ?
+          InCell([&midsurface](const auto &cell, const auto &unit) {
+            return midsurface.chart(cell, unit);
+          }) :
+          InCell());
+    number_dofs();
+  }
+
+  Discretization::Discretization(const Midsurface  &midsurface,
+                                 const MPI_Comm     communicator,
+                                 const Element     &element,
+                                 const unsigned int mapping_degree,
                                  const unsigned int n_refinements)
     : Discretization(
         midsurface.create_triangulation(communicator,
@@ -66,11 +96,6 @@ namespace Nacre
     , geometry_dof_handler_(*triangulation_)
   {
     dof_handler_.distribute_dofs(fe_);
-    locally_owned_dofs_ = dof_handler_.locally_owned_dofs();
-    locally_relevant_dofs_ =
-      DoFTools::extract_locally_relevant_dofs(dof_handler_);
-    hanging_node_constraints_ = make_hanging_node_constraints(dof_handler_);
-
     node_dofs_.resize(fe_.n_dofs_per_cell());
     for (unsigned int i = 0; i < fe_.n_dofs_per_cell(); ++i)
       {
@@ -78,6 +103,105 @@ namespace Nacre
         node_dofs_[spacedim * a + c] = i;
       }
     build_geometry(position, mapping_degree);
+    number_dofs();
+  }
+
+  void
+  Discretization::cut(const Cuts &cuts, const InCell &chart)
+  {
+    const CutTrace trace(
+      *triangulation_,
+      element_.reference_cell(),
+      [this](const auto &cell, const auto &unit) {
+        const std::size_t n   = geometry_to_nodes_.n();
+        const auto     *nodes = &geometry_nodes_[cell->active_cell_index() * n];
+        Point<spacedim> x;
+        for (unsigned int b = 0; b < n; ++b)
+          x += geometry_fe().shape_value(b, unit) * nodes[b];
+        return x;
+      },
+      chart,
+      cuts);
+    parts_         = CellParts(dof_handler_, trace);
+    smallest_part_ = cuts.smallest_part;
+  }
+
+  void
+  Discretization::number_dofs()
+  {
+    numbering_ = std::make_unique<PartNumbering>(dof_handler_,
+                                                 face_nodes_,
+                                                 node_dofs_,
+                                                 parts_);
+    if (parts_.is_empty())
+      node_constraints_ = make_hanging_node_constraints(dof_handler_);
+    else
+      constrain_parts();
+    owned_parts_.clear();
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (unsigned int i = 0; i < parts_.n_parts(cell); ++i)
+          owned_parts_.push_back(parts_.part(cell, i));
+  }
+
+  void
+  Discretization::constrain_parts()
+  {
+    const PartExtension extension(
+      dof_handler_,
+      *scalar_fe_,
+      node_dofs_,
+      smallest_part_,
+      [this](const CellPart &part) { return node_positions(part); },
+      *numbering_,
+      parts_);
+    node_constraints_.reinit(locally_relevant_dofs());
+    for (const auto &line :
+         make_hanging_node_constraints(dof_handler_).get_lines())
+      {
+        const auto dof = numbering_->number_of(line.index);
+        node_constraints_.add_line(dof);
+        for (const auto &[master, weight] : line.entries)
+          node_constraints_.add_entry(dof,
+                                      numbering_->number_of(master),
+                                      weight);
+      }
+    extension.add_to(node_constraints_);
+    if (Utilities::MPI::n_mpi_processes(communicator()) > 1)
+      node_constraints_.make_consistent_in_parallel(locally_owned_dofs(),
+                                                    locally_relevant_dofs(),
+                                                    communicator());
+    node_constraints_.close();
+  }
+
+  std::vector<CellPart>
+  Discretization::relevant_parts() const
+  {
+    std::vector<CellPart> result;
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (unsigned int i = 0; i < parts_.n_parts(cell); ++i)
+          result.push_back(parts_.part(cell, i));
+    return result;
+  }
+
+  void
+  Discretization::get_dof_indices(
+    const CellPart                       &part,
+    std::vector<types::global_dof_index> &dofs) const
+  {
+    if (part.data != nullptr)
+      {
+        dofs = part.data->dofs;
+        return;
+      }
+    AssertThrow(!parts_.is_touched(part.cell),
+                ExcMessage("Cuts/Cuts: this isn't implemented with cuts."));
+    dofs.resize(node_dofs_.size());
+    part.cell->get_dof_indices(dofs);
+    if (!parts_.is_empty())
+      for (auto &dof : dofs)
+        dof = numbering_->number_of(dof);
   }
 
   void
@@ -137,8 +261,10 @@ namespace Nacre
       mapping_ = std::make_unique<NodalMapping>(
         scalar_geometry_fe,
         [this](const auto &cell) {
-          const auto nodes = geometry_nodes(cell);
-          return std::vector<Point<spacedim>>(nodes.begin(), nodes.end());
+          const std::size_t n = geometry_to_nodes_.n();
+          const auto        first =
+            geometry_nodes_.begin() + cell->active_cell_index() * n;
+          return std::vector<Point<spacedim>>(first, first + n);
         });
   }
 
@@ -195,26 +321,27 @@ namespace Nacre
   const IndexSet &
   Discretization::locally_owned_dofs() const
   {
-    return locally_owned_dofs_;
+    return numbering_->locally_owned_dofs();
   }
 
   const IndexSet &
   Discretization::locally_relevant_dofs() const
   {
-    return locally_relevant_dofs_;
+    return numbering_->locally_relevant_dofs();
   }
 
   const AffineConstraints<double> &
-  Discretization::hanging_node_constraints() const
+  Discretization::node_constraints() const
   {
-    return hanging_node_constraints_;
+    return node_constraints_;
   }
 
   std::vector<Point<spacedim>>
-  Discretization::node_positions(
-    const Triangulation<dim, spacedim>::active_cell_iterator &cell) const
+  Discretization::node_positions(const CellPart &part) const
   {
-    const auto                   geometry = geometry_nodes(cell);
+    const auto geometry = geometry_nodes(part);
+    if (part.data != nullptr && !part.data->nodes.empty())
+      return {geometry.begin(), geometry.end()};
     std::vector<Point<spacedim>> positions(scalar_fe_->n_dofs_per_cell());
     for (unsigned int a = 0; a < positions.size(); ++a)
       for (unsigned int b = 0; b < geometry.size(); ++b)
@@ -231,7 +358,7 @@ namespace Nacre
         low[c]  = std::numeric_limits<double>::max();
         high[c] = std::numeric_limits<double>::lowest();
       }
-    for (const auto &cell : triangulation_->active_cell_iterators())
+    for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto &x : node_positions(cell))
           for (unsigned int c = 0; c < spacedim; ++c)

@@ -82,8 +82,7 @@ namespace Nacre
     {
       IndexSet lines = discretization.locally_relevant_dofs();
       std::vector<types::global_dof_index> masters;
-      for (const auto &line :
-           discretization.hanging_node_constraints().get_lines())
+      for (const auto &line : discretization.node_constraints().get_lines())
         for (const auto &entry : line.entries)
           masters.push_back(entry.first);
       std::sort(masters.begin(), masters.end());
@@ -110,11 +109,15 @@ namespace Nacre
     add_edge_conditions(collect_edge_nodes());
     const auto between = add_point_supports();
     constraints_.reinit(local_lines_);
-    constraints_.merge(discretization.hanging_node_constraints(),
-                       AffineConstraints<double>::no_conflicts_allowed,
-                       true);
     for (const auto &node : nodes_)
       constrain(node.second);
+    // What is prescribed goes before what follows from other nodes.
+    for (const auto &line : discretization.node_constraints().get_lines())
+      if (!constraints_.is_constrained(line.index))
+        {
+          constraints_.add_line(line.index);
+          constraints_.add_entries(line.index, line.entries);
+        }
     constraints_.close();
     constrain_points(between);
 
@@ -138,37 +141,38 @@ namespace Nacre
     FEValues<dim, spacedim> fe_values(discretization_.mapping(),
                                       fe_nothing,
                                       fe.get_unit_support_points(),
-                                      update_jacobians |
-                                        update_quadrature_points);
+                                      update_jacobians);
     // dofs, id, position, normal, conormal, turn: plain numbers for the
     // exchange.
     std::vector<double>                  mine;
     std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
-        for (const auto face : cell->face_indices())
+    for (const CellPart &part : discretization_.owned_parts())
+      if (part.cell->at_boundary())
+        for (const auto face : part.cell->face_indices())
           {
-            if (!cell->at_boundary(face))
+            if (!part.cell->at_boundary(face))
               continue;
             const auto edge = boundary_conditions_.edges().find(
-              cell->face(face)->boundary_id());
-            if (edge == boundary_conditions_.edges().end())
+              part.cell->face(face)->boundary_id());
+            // A part without an interval of the edge isn't held by it.
+            if (edge == boundary_conditions_.edges().end() ||
+                discretization_.cell_parts().pieces_of(part, face).empty())
               continue;
             fe_values.reinit(
-              static_cast<Triangulation<dim, spacedim>::cell_iterator>(cell));
-            cell->get_dof_indices(dofs);
+              static_cast<Triangulation<dim, spacedim>::cell_iterator>(
+                part.cell));
+            discretization_.get_dof_indices(part, dofs);
+            const auto positions = discretization_.node_positions(part);
             for (const unsigned int a : discretization_.face_nodes(face))
               {
                 const auto [normal, conormal] =
                   edge_directions(fe_values.jacobian(a),
-                                  cell->reference_cell(),
+                                  part.cell->reference_cell(),
                                   face);
                 for (unsigned int c = 0; c < spacedim; ++c)
                   mine.push_back(dofs[node_dofs[spacedim * a + c]]);
                 mine.push_back(edge->second.edge);
-                for (const auto &v :
-                     {Vector3(fe_values.quadrature_point(a)), normal, conormal})
+                for (const auto &v : {Vector3(positions[a]), normal, conormal})
                   mine.insert(mine.end(), v.begin_raw(), v.end_raw());
                 mine.push_back(largest_turn(fe_values, normal));
               }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 namespace Nacre
 {
@@ -93,23 +94,23 @@ namespace Nacre
       return start;
     }
 
-    /** The nearest point on one of this rank's cells. */
+    /** The nearest point on one of this rank's cells, or on a part. */
     struct NearCell
     {
-      DoFHandler<dim, spacedim>::active_cell_iterator cell;
-      Point<dim>                                      unit;
-      Point<spacedim>                                 position;
-      double                                          distance;
-      double                                          size;
+      CellPart        part;
+      Point<dim>      unit;
+      Point<spacedim> position;
+      double          distance;
+      double          size;
     };
 
     NearCell
-    nearest_point(const Discretization                                  &mesh,
-                  const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-                  const Point<spacedim>                                 &point)
+    nearest_point(const Discretization  &mesh,
+                  const CellPart        &part,
+                  const Point<spacedim> &point)
     {
       const auto &fe    = mesh.scalar_fe();
-      const auto  nodes = mesh.node_positions(cell);
+      const auto  nodes = mesh.node_positions(part);
       const auto  start =
         std::min_element(nodes.begin(),
                          nodes.end(),
@@ -118,7 +119,7 @@ namespace Nacre
                          });
       const LocalSurface surface{fe, nodes};
       NearCell           result;
-      result.cell     = cell;
+      result.part     = part;
       result.unit     = project(surface,
                             mesh.element().reference_cell(),
                             point,
@@ -131,6 +132,9 @@ namespace Nacre
       return result;
     }
 
+    /** Points of the reference cell so near to a lip lie on it. */
+    constexpr double on_lip = 1e-6;
+
     /**
      * Call @p use with the nearest points of this rank's cells, other than of
      * cells farther away than @p limit() for certain.
@@ -142,19 +146,21 @@ namespace Nacre
                        const Limit           &limit,
                        const Use             &use)
     {
-      for (const auto &cell : mesh.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const auto                  nodes = mesh.node_positions(cell);
-            const BoundingBox<spacedim> box(nodes);
-            double nearest = std::numeric_limits<double>::max();
-            for (const auto &node : nodes)
-              nearest = std::min(nearest, node.distance(point));
-            if (nearest - box.side_length(0) - box.side_length(1) -
-                  box.side_length(2) <=
-                limit())
-              use(nearest_point(mesh, cell, point));
-          }
+      for (const CellPart &part : mesh.owned_parts())
+        {
+          const auto                  nodes = mesh.node_positions(part);
+          const BoundingBox<spacedim> box(nodes);
+          double nearest = std::numeric_limits<double>::max();
+          for (const auto &node : nodes)
+            nearest = std::min(nearest, node.distance(point));
+          if (nearest - box.side_length(0) - box.side_length(1) -
+                box.side_length(2) >
+              limit())
+            continue;
+          const NearCell near = nearest_point(mesh, part, point);
+          if (!part.is_cut() || part.polygon().contains(near.unit, on_lip))
+            use(near);
+        }
     }
 
     /**
@@ -199,13 +205,13 @@ namespace Nacre
     using Weights = std::map<types::global_dof_index, double>;
 
     Weights
-    weights_at(const Discretization                                  &mesh,
-               const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-               const Point<dim>                                      &unit)
+    weights_at(const Discretization &mesh,
+               const CellPart       &part,
+               const Point<dim>     &unit)
     {
-      const auto &hanging = mesh.hanging_node_constraints();
-      std::vector<types::global_dof_index> dofs(mesh.node_dofs().size());
-      cell->get_dof_indices(dofs);
+      const auto                          &hanging = mesh.node_constraints();
+      std::vector<types::global_dof_index> dofs;
+      mesh.get_dof_indices(part, dofs);
       Weights weights;
       for (unsigned int a = 0; a < mesh.scalar_fe().n_dofs_per_cell(); ++a)
         {
@@ -224,6 +230,7 @@ namespace Nacre
     struct Candidate
     {
       CellId          id;
+      unsigned int    number;
       Point<spacedim> position;
       double          distance;
       double          size;
@@ -236,7 +243,7 @@ namespace Nacre
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &id &position &distance &size &inside &weights;
+        archive &id &number &position &distance &size &inside &weights;
       }
     };
 
@@ -244,15 +251,26 @@ namespace Nacre
     make_candidate(const Discretization &mesh, const NearCell &near)
     {
       const auto middle =
-        mesh.element().reference_cell().template barycenter<dim>();
-      const auto nodes = mesh.node_positions(near.cell);
-      return {near.cell->id(),
+        near.part.is_cut() ?
+          near.part.polygon().inner_point() :
+          mesh.element().reference_cell().template barycenter<dim>();
+      const auto nodes = mesh.node_positions(near.part);
+      return {near.part.cell->id(),
+              near.part.data != nullptr ? near.part.data->number : 0,
               near.position,
               near.distance,
               near.size,
               LocalSurface{mesh.scalar_fe(), nodes}.position(
                 near.unit + 0.05 * (middle - near.unit)),
-              weights_at(mesh, near.cell, near.unit)};
+              weights_at(mesh, near.part, near.unit)};
+    }
+
+    bool
+    is_of(const Candidate &candidate, const NearCell &near)
+    {
+      return candidate.id == near.part.cell->id() &&
+             (near.part.data == nullptr ||
+              candidate.number == near.part.data->number);
     }
 
     /**
@@ -286,13 +304,13 @@ namespace Nacre
       std::vector<std::pair<unsigned int, unsigned int>> joints;
       for (unsigned int a = 0; a < all.size(); ++a)
         for (const auto &near : mine)
-          if (all.size() > 1 && near.cell->id() == all[a].id)
+          if (all.size() > 1 && is_of(all[a], near))
             for (unsigned int b = 0; b < all.size(); ++b)
               if (are_same(
                     weights_at(
                       mesh,
-                      near.cell,
-                      nearest_point(mesh, near.cell, all[b].position).unit),
+                      near.part,
+                      nearest_point(mesh, near.part, all[b].position).unit),
                     all[b].weights))
                 joints.emplace_back(a, b);
       std::vector<bool> is_joined(all.size(), false);
@@ -342,7 +360,7 @@ namespace Nacre
     // The lowest of the cells that share the point is the same on any number of
     // ranks.
     std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
-      return a.id < b.id;
+      return std::tie(a.id, a.number) < std::tie(b.id, b.number);
     });
     const auto best =
       std::find_if(all.begin(), all.end(), [&](const auto &candidate) {
@@ -368,10 +386,10 @@ namespace Nacre
     result.distance      = best->distance;
     result.cell_diameter = best->size;
     for (const auto &near : mine)
-      if (near.cell->id() == best->id)
+      if (is_of(*best, near))
         {
           result.is_mine = true;
-          result.cell    = near.cell;
+          result.part    = near.part;
           result.unit    = near.unit;
         }
     return result;

@@ -15,8 +15,9 @@ namespace Nacre
          discretization.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const auto f : cell->face_indices())
-          if (edge.reinit_to_neighbor(cell, f))
-            consistent &= (edge.sigma(1, 0) > 0.);
+          edge.for_pieces_to_neighbor(cell, f, [&](const auto &piece) {
+            consistent &= (piece.sigma(1, 0) > 0.);
+          });
     return Utilities::MPI::min(consistent ? 1 : 0,
                                discretization.communicator()) == 1;
   }

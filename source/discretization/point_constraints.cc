@@ -45,11 +45,11 @@ namespace Nacre
     {
       const auto      &fe        = discretization.scalar_fe();
       const auto      &node_dofs = discretization.node_dofs();
-      const auto      &hanging   = discretization.hanging_node_constraints();
-      const auto       nodes     = discretization.node_positions(found.cell);
+      const auto      &hanging   = discretization.node_constraints();
+      const auto       nodes     = discretization.node_positions(found.part);
       const Point<dim> unit      = snap(fe, found.unit);
-      std::vector<types::global_dof_index> dofs(node_dofs.size());
-      found.cell->get_dof_indices(dofs);
+      std::vector<types::global_dof_index> dofs;
+      discretization.get_dof_indices(found.part, dofs);
       PointPlace place;
       for (unsigned int a = 0; a < nodes.size(); ++a)
         {
@@ -156,7 +156,7 @@ namespace Nacre
   {
     std::map<types::global_dof_index, double> by_nodes, by_free;
     Equation                                  equation;
-    const auto &hanging = discretization_->hanging_node_constraints();
+    const auto &hanging = discretization_->node_constraints();
     const auto &place   = condition.place;
     for (unsigned int a = 0; a < place.weights.size(); ++a)
       {

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/simd.h>
+#include <nacre/discretization/part_quadrature.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/shell_strain.h>
 
@@ -40,48 +41,114 @@ namespace Nacre
     }
   } // namespace
 
-  ShellCellValues::ShellCellValues(const Discretization  &discretization,
-                                   const Quadrature<dim> &quadrature,
-                                   const bool             tied)
-    : discretization_(discretization)
-    , quadrature_(quadrature)
-    , tied_(tied)
-    , tying_(tied ? MembraneTying(discretization.element(),
-                                  quadrature.get_points()) :
-                    MembraneTying::untied(quadrature.get_points()))
-    , shapes_(discretization.scalar_fe(), quadrature.get_points())
-    , tying_shapes_(tied ?
-                      ShapeTable(discretization.scalar_fe(), tying_.points()) :
-                      shapes_)
-    , geometry_table_(discretization.geometry_fe(), quadrature.get_points())
-    , tying_geometry_table_(
-        tied ? GeometryTable(discretization.geometry_fe(), tying_.points()) :
-               geometry_table_)
-    , frames_(quadrature.size())
-    , tying_frames_(tied ? tying_.points().size() : 0)
-    , membrane_rows_(3 * quadrature.size(), n_dofs())
-    , bending_rows_(3 * quadrature.size(), n_dofs())
-    , tying_rows_(tied ? tying_.samples().size() : 0, n_dofs())
+  ShellCellValues::Tables::Tables(const Discretization  &discretization,
+                                  const Quadrature<dim> &quadrature,
+                                  const MembraneTying   &tying,
+                                  const bool             has_tying_points)
+    : quadrature(quadrature)
+    , tying(tying)
+    , has_tying_points(has_tying_points)
+    , shapes(discretization.scalar_fe(), quadrature.get_points())
+    , tying_shapes(has_tying_points ?
+                     ShapeTable(discretization.scalar_fe(), tying.points()) :
+                     shapes)
+    , geometry(discretization.geometry_fe(), quadrature.get_points())
+    , tying_geometry(
+        has_tying_points ?
+          GeometryTable(discretization.geometry_fe(), tying.points()) :
+          geometry)
   {}
 
-  void
-  ShellCellValues::evaluate(
-    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  ShellCellValues::ShellCellValues(const Discretization  &discretization,
+                                   const Quadrature<dim> &quadrature,
+                                   const bool             tied,
+                                   const Points           points)
+    : discretization_(discretization)
+    , tied_(tied)
+    , points_(points)
+    , projects_(tied)
+    , of_cell_(discretization,
+               quadrature,
+               tied ? MembraneTying(discretization.element(),
+                                    quadrature.get_points()) :
+                      MembraneTying::untied(quadrature.get_points()),
+               tied)
   {
-    const auto nodes = discretization_.geometry_nodes(cell);
-    material_id_     = cell->material_id();
-    geometry_table_.evaluate(nodes, geometry_);
-    for (unsigned int q = 0; q < n_points(); ++q)
-      frames_[q] = frame_from(geometry_, q);
-    if (tied_)
-      tying_geometry_table_.evaluate(nodes, tying_geometry_);
+    resize();
   }
 
   void
-  ShellCellValues::reinit_frames(
-    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  ShellCellValues::resize()
   {
-    evaluate(cell);
+    const Tables      &of      = tables();
+    const unsigned int n       = of.quadrature.size();
+    const bool         samples = of.has_tying_points || is_cut();
+    frames_.resize(n);
+    tying_frames_.resize(of.has_tying_points ? of.tying.points().size() : 0);
+    membrane_rows_.reinit(3 * n, n_dofs());
+    bending_rows_.reinit(3 * n, n_dofs());
+    tying_rows_.reinit(samples ? of.tying.samples().size() : 0, n_dofs());
+  }
+
+  void
+  ShellCellValues::set_tables(const CellPart &part)
+  {
+    const bool was_cut = is_cut();
+    if (part.is_cut())
+      {
+        const Quadrature<dim> rule =
+          part_quadrature(part.polygon(), discretization_.degree());
+        const bool  integrates = points_ == Points::rule;
+        const auto &targets    = integrates ? rule : of_cell_.quadrature;
+        if (projects_)
+          {
+            const GeometryTable table(discretization_.geometry_fe(),
+                                      rule.get_points());
+            table.evaluate(discretization_.geometry_nodes(part), geometry_);
+            std::vector<double> areas(rule.size());
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              areas[q] =
+                rule.weight(q) * cross_product_3d(geometry_.tangent(q, 0),
+                                                  geometry_.tangent(q, 1))
+                                   .norm();
+            of_part_.emplace(discretization_,
+                             targets,
+                             MembraneTying::projected(discretization_.element(),
+                                                      rule,
+                                                      areas,
+                                                      targets.get_points()),
+                             !integrates);
+          }
+        else
+          of_part_.emplace(discretization_,
+                           targets,
+                           MembraneTying::untied(targets.get_points()),
+                           false);
+      }
+    else
+      of_part_.reset();
+    if (was_cut || is_cut())
+      resize();
+  }
+
+  void
+  ShellCellValues::evaluate(const CellPart &part)
+  {
+    if (is_cut() || part.is_cut())
+      set_tables(part);
+    const auto nodes = discretization_.geometry_nodes(part);
+    material_id_     = part.cell->material_id();
+    tables().geometry.evaluate(nodes, geometry_);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      frames_[q] = frame_from(geometry_, q);
+    if (tables().has_tying_points)
+      tables().tying_geometry.evaluate(nodes, tying_geometry_);
+  }
+
+  void
+  ShellCellValues::reinit_frames(const CellPart &part)
+  {
+    evaluate(part);
     for (unsigned int k = 0; k < tying_frames_.size(); ++k)
       tying_frames_[k] = make_surface_frame(tying_geometry_.tangent(k, 0),
                                             tying_geometry_.tangent(k, 1),
@@ -89,14 +156,13 @@ namespace Nacre
   }
 
   void
-  ShellCellValues::reinit(
-    const Triangulation<dim, spacedim>::cell_iterator &cell)
+  ShellCellValues::reinit(const CellPart &part)
   {
-    evaluate(cell);
+    evaluate(part);
     for (unsigned int k = 0; k < tying_frames_.size(); ++k)
       for (unsigned int alpha = 0; alpha < dim; ++alpha)
         tying_frames_[k].a_cov[alpha] = tying_geometry_.tangent(k, alpha);
-    if (tied_)
+    if (tied_ || (is_cut() && projects_))
       fill_tied_membrane_rows();
     else
       fill_membrane_rows();
@@ -113,9 +179,9 @@ namespace Nacre
         double     *row[3] = {&membrane_rows_(3 * q, 0),
                               &membrane_rows_(3 * q + 1, 0),
                               &membrane_rows_(3 * q + 2, 0)};
-        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
           {
-            const auto &dN = shapes_.gradient(q, a);
+            const auto &dN = shapes().gradient(q, a);
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const unsigned int i = dofs[spacedim * a + c];
@@ -133,15 +199,15 @@ namespace Nacre
     const unsigned int *const dofs = discretization_.node_dofs().data();
     for (unsigned int k = 0; k < tying_rows_.m(); ++k)
       {
-        const auto &[point, direction] = tying_.samples()[k];
-        const auto &[a_1, a_2]         = tying_frames_[point].a_cov;
+        const auto &[point, direction] = tying().samples()[k];
+        const auto &[a_1, a_2]         = tying_frame(point).a_cov;
         double *const row              = &tying_rows_(k, 0);
         // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)
         const auto g_1 = direction[0] * a_1 + direction[2] * a_2;
         const auto g_2 = direction[2] * a_1 + direction[1] * a_2;
-        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
           {
-            const auto &dN = tying_shapes_.gradient(point, a);
+            const auto &dN = tying_shapes().gradient(point, a);
             for (unsigned int c = 0; c < spacedim; ++c)
               row[dofs[spacedim * a + c]] = dN[0] * g_1[c] + dN[1] * g_2[c];
           }
@@ -149,7 +215,7 @@ namespace Nacre
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
         {
-          const auto &weights = tying_.weights(q, v);
+          const auto &weights = tying().weights(q, v);
           combine(&tying_rows_(0, 0),
                   weights.data(),
                   weights.size(),
@@ -168,12 +234,12 @@ namespace Nacre
         double     *row[3] = {&bending_rows_(3 * q, 0),
                               &bending_rows_(3 * q + 1, 0),
                               &bending_rows_(3 * q + 2, 0)};
-        for (unsigned int a = 0; a < shapes_.n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
           {
             const auto strain =
               ShellStrain::bending_of_shape_function(frames_[q],
-                                                     shapes_.gradient(q, a),
-                                                     shapes_.hessian(q, a));
+                                                     shapes().gradient(q, a),
+                                                     shapes().hessian(q, a));
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const unsigned int i = dofs[spacedim * a + c];
@@ -264,18 +330,31 @@ namespace Nacre
                           const unsigned int   neighbor_face,
                           const unsigned int   neighbor_subface)
   {
-    n_sides_ = 2;
-    update_side(0, cell, face, subface);
-    update_side(1, neighbor, neighbor_face, neighbor_subface);
-    join_dofs({{cell, neighbor}});
+    const CellParts &parts = discretization_.cell_parts();
+    n_sides_               = 2;
+    update_side(0, parts.part(cell), face, subface);
+    update_side(1, parts.part(neighbor), neighbor_face, neighbor_subface);
+    join_dofs();
   }
 
   void
   ShellEdgeValues::reinit(const cell_iterator &cell, const unsigned int face)
   {
     n_sides_ = 1;
-    update_side(0, cell, face, numbers::invalid_unsigned_int);
-    join_dofs({{cell, cell}});
+    update_side(0,
+                discretization_.cell_parts().part(cell),
+                face,
+                numbers::invalid_unsigned_int);
+    join_dofs();
+  }
+
+  void
+  ShellEdgeValues::reinit(const EdgePiece &piece)
+  {
+    n_sides_ = piece.n_sides;
+    for (unsigned int side = 0; side < n_sides_; ++side)
+      update_side(side, piece.sides[side]);
+    join_dofs();
   }
 
   bool
@@ -302,21 +381,48 @@ namespace Nacre
   }
 
   void
-  ShellEdgeValues::update_side(const unsigned int   side,
-                               const cell_iterator &cell,
-                               const unsigned int   face,
-                               const unsigned int   subface)
+  ShellEdgeValues::update_side(const unsigned int side,
+                               const CellPart    &part,
+                               const unsigned int face,
+                               const unsigned int subface)
   {
     const bool         whole = (subface == numbers::invalid_unsigned_int);
     const unsigned int kind =
-      whole ? (cell->face_orientation(face) ? 2 : 3) : subface;
-    const Table &points          = table(face, kind);
-    auto        &geometry        = geometry_[side];
-    table_of_side_[side]         = {face, kind};
-    material_ids_[side]          = cell->material_id();
-    cells_[side]                 = cell;
+      whole ? (part.cell->face_orientation(face) ? 2 : 3) : subface;
+    table(face, kind);
+    table_of_side_[side] = {face, kind};
+    parts_[side]         = part;
+    evaluate(side, whole ? 1. : 0.5);
+  }
+
+  void
+  ShellEdgeValues::update_side(const unsigned int     side,
+                               const EdgePiece::Side &piece)
+  {
+    const auto cell = discretization_.element().reference_cell();
+    const auto start =
+      cell.vertex<dim>(cell.face_to_cell_vertices(piece.face, 0, 1));
+    const auto &[s_0, s_1] = piece.interval;
+    std::vector<Point<dim>> points;
+    for (const auto &x : quadrature_.get_points())
+      points.push_back(start +
+                       (s_0 + x[0] * (s_1 - s_0)) * directions_[piece.face]);
+    piece_tables_[side].emplace(discretization_, points);
+    table_of_side_[side] = {piece.face, piece_kind};
+    parts_[side]         = piece.part;
+    evaluate(side, std::abs(s_1 - s_0));
+  }
+
+  void
+  ShellEdgeValues::evaluate(const unsigned int side, const double share)
+  {
+    const unsigned int face      = table_of_side_[side].first;
+    auto              &geometry  = geometry_[side];
+    material_ids_[side]          = parts_[side].cell->material_id();
     tied_sides_[side].has_frames = tied_sides_[side].has_rows = false;
-    points.geometry.evaluate(discretization_.geometry_nodes(cell), geometry);
+    table_of(side).geometry.evaluate(discretization_.geometry_nodes(
+                                       parts_[side]),
+                                     geometry);
 
     const Tensor<1, dim> along = directions_[face];
     // nu^- = n^-, nu^+ = -n^+
@@ -330,16 +436,16 @@ namespace Nacre
         conormals_[side][q] =
           (sign / length) * cross_product_3d(tangent, frame.t0);
         if (side == 0)
-          JxW_[q] = (whole ? 1. : 0.5) * length * quadrature_.weight(q);
+          JxW_[q] = share * length * quadrature_.weight(q);
       }
   }
 
   void
-  ShellEdgeValues::join_dofs(const std::array<cell_iterator, 2> &cells)
+  ShellEdgeValues::join_dofs()
   {
     const auto        &node_dofs = discretization_.node_dofs();
     const unsigned int n         = node_dofs.size();
-    cells[0]->get_dof_indices(cell_dofs_[0]);
+    discretization_.get_dof_indices(parts_[0], cell_dofs_[0]);
     dof_indices_   = cell_dofs_[0];
     joint_dofs_[0] = node_dofs;
     if (n_sides_ == 1)
@@ -348,7 +454,7 @@ namespace Nacre
     // Shared nodes lie on the boundary of both cells; they come first.
     const auto        &fe       = discretization_.scalar_fe();
     const unsigned int n_shared = fe.n_dofs_per_cell() - fe.n_dofs_per_quad();
-    cells[1]->get_dof_indices(cell_dofs_[1]);
+    discretization_.get_dof_indices(parts_[1], cell_dofs_[1]);
     auto &joint = joint_dofs_[1];
     std::fill(joint.begin(), joint.end(), numbers::invalid_unsigned_int);
     for (unsigned int b = 0; b < n_shared; ++b)
@@ -371,14 +477,16 @@ namespace Nacre
   const MembraneTying &
   ShellEdgeValues::tying(const unsigned int side) const
   {
-    const auto [face, kind] = table_of_side_[side];
-    const auto found        = tyings_.find(table_of_side_[side]);
+    AssertThrow(table_of_side_[side].second != piece_kind,
+                ExcMessage("Cuts/Cuts: sections that couple membrane forces "
+                           "with bending can't be cut."));
+    const auto found = tyings_.find(table_of_side_[side]);
     if (found != tyings_.end())
       return found->second;
     const MembraneTying &tying = tyings_
                                    .try_emplace(table_of_side_[side],
                                                 discretization_.element(),
-                                                tables_[face][kind]->points)
+                                                table_of(side).points)
                                    .first->second;
     // The samples are the same for all points of a cell.
     if (!tying_table_)
@@ -395,7 +503,7 @@ namespace Nacre
     tied.has_frames = true;
     tied.frames.resize(tying(side).points().size());
     tying_table_->geometry.evaluate(discretization_.geometry_nodes(
-                                      cells_[side]),
+                                      parts_[side]),
                                     tied.geometry);
     for (unsigned int k = 0; k < tied.frames.size(); ++k)
       tied.frames[k] = make_surface_frame(tied.geometry.tangent(k, 0),

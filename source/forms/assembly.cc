@@ -20,33 +20,16 @@ namespace Nacre
     unsigned int n_done = 0;
   };
 
-  struct Assembly::CopyData
+  /** What one part of a cell and its edges give. */
+  struct Assembly::PartCopy
   {
-    bool                                 wants_tangent = true;
     LocalTerms                           terms;
     std::vector<types::global_dof_index> dofs;
     std::vector<FaceCopy>                faces;
     /** Faces in use; their storage is kept from cell to cell. */
     unsigned int n_faces = 0;
 
-    CopyData()                      = default;
-    CopyData(const CopyData &other) = default;
-
-    /**
-     * mesh_loop() resets by assignment: forget what the cell gave, but keep
-     * the storage. Cells of other ranks leave it at that.
-     */
-    CopyData &
-    operator=(const CopyData &other)
-    {
-      wants_tangent  = other.wants_tangent;
-      terms.energies = Energies();
-      dofs.clear();
-      n_faces = 0;
-      return *this;
-    }
-
-    /** Call @p add(terms, dofs, n_done) for the cell and its faces. */
+    /** Call @p add(terms, dofs, n_done) for the part and its faces. */
     template <typename Function>
     void
     for_each(const Function &add) const
@@ -58,13 +41,13 @@ namespace Nacre
     }
 
     /**
-     * The cell's dofs are the first of each of its faces: add that block of
-     * the tangent to the cell's, which goes into the matrix anyway.
+     * The part's dofs are the first of each of its faces: add that block of
+     * the tangent to the part's, which goes into the matrix anyway.
      */
     void
     take_block(FaceCopy &face)
     {
-      face.n_done = (wants_tangent ? dofs.size() : 0);
+      face.n_done = (terms.wants_tangent ? dofs.size() : 0);
       for (unsigned int i = 0; i < face.n_done; ++i)
         {
           const double *from = &face.terms.tangent(i, 0);
@@ -79,9 +62,53 @@ namespace Nacre
     {
       if (n_faces == faces.size())
         faces.emplace_back();
-      faces[n_faces].terms.wants_tangent = wants_tangent;
+      faces[n_faces].terms.wants_tangent = terms.wants_tangent;
       faces[n_faces].n_done              = 0;
       return faces[n_faces++];
+    }
+  };
+
+  struct Assembly::CopyData
+  {
+    bool                  wants_tangent = true;
+    std::vector<PartCopy> parts         = std::vector<PartCopy>(1);
+
+    CopyData()                      = default;
+    CopyData(const CopyData &other) = default;
+
+    /**
+     * mesh_loop() resets by assignment: forget what the cell gave, but keep
+     * the storage. Cells of other ranks leave it at that.
+     */
+    CopyData &
+    operator=(const CopyData &other)
+    {
+      wants_tangent = other.wants_tangent;
+      for (auto &part : parts)
+        {
+          part.terms.energies = Energies();
+          part.dofs.clear();
+          part.n_faces = 0;
+        }
+      return *this;
+    }
+
+    template <typename Function>
+    void
+    for_each(const Function &add) const
+    {
+      for (const auto &part : parts)
+        part.for_each(add);
+    }
+
+    /** Of the part number @p k; @p n parts have room. */
+    PartCopy &
+    start(const unsigned int k, const unsigned int n)
+    {
+      if (parts.size() < n)
+        parts.resize(n);
+      parts[k].terms.wants_tangent = wants_tangent;
+      return parts[k];
     }
   };
 
@@ -143,14 +170,22 @@ namespace Nacre
     void
     work_on_cell(const Cell &cell, CopyData &copy)
     {
-      copy.terms.wants_tangent = copy.wants_tangent;
-      copy.dofs.resize(cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(copy.dofs);
-      copy.terms.reinit(copy.dofs.size());
-      extract_state(copy.dofs);
-      TermCell place(cell, copy.dofs, local_, state_.actions, *kinematics_);
-      for (const Term *term : terms_)
-        term->add_on_cell(place, copy.terms);
+      const unsigned int n = cell_parts().n_parts(cell);
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          const CellPart part   = cell_parts().part(cell, k);
+          PartCopy      &result = copy.start(k, n);
+          shell_.discretization_.get_dof_indices(part, result.dofs);
+          result.terms.reinit(result.dofs.size());
+          extract_state(result.dofs);
+          TermCell place(part,
+                         result.dofs,
+                         local_,
+                         state_.actions,
+                         *kinematics_);
+          for (const Term *term : terms_)
+            term->add_on_cell(place, result.terms);
+        }
     }
 
     void
@@ -162,11 +197,53 @@ namespace Nacre
                        const unsigned int neighbor_subface,
                        CopyData          &copy)
     {
-      edge_
-        .reinit(cell, face, subface, neighbor, neighbor_face, neighbor_subface);
+      if (cell_parts().has_pieces(cell, face))
+        for (const EdgePiece &piece : cell_parts().pieces_between(cell, face))
+          {
+            edge_.reinit(piece);
+            add_between_cells(copy.parts[piece.sides[0].part.data->number]);
+          }
+      else
+        {
+          edge_.reinit(cell,
+                       face,
+                       subface,
+                       neighbor,
+                       neighbor_face,
+                       neighbor_subface);
+          add_between_cells(copy.parts[0]);
+        }
+    }
+
+    void
+    work_on_boundary(const Cell &cell, const unsigned int face, CopyData &copy)
+    {
+      for (unsigned int k = 0; k < cell_parts().n_parts(cell); ++k)
+        {
+          const CellPart part = cell_parts().part(cell, k);
+          if (!part.is_cut())
+            add_on_boundary(EdgePiece(part, face), copy.parts[k]);
+          else
+            for (const auto &piece : cell_parts().pieces_of(part, face))
+              add_on_boundary(piece, copy.parts[k]);
+        }
+    }
+
+  private:
+    const CellParts &
+    cell_parts() const
+    {
+      return shell_.discretization_.cell_parts();
+    }
+
+    /** The terms of the edge between two parts. */
+    void
+    add_between_cells(PartCopy &copy)
+    {
       FaceCopy      &result = start_edge(copy);
       const TermEdge place{edge_,
-                           shell_.penalty_.interior(cell, neighbor),
+                           shell_.penalty_.interior(edge_.part(0),
+                                                    edge_.part(1)),
                            local_,
                            state_.actions,
                            *kinematics_,
@@ -178,20 +255,23 @@ namespace Nacre
     }
 
     void
-    work_on_boundary(const Cell &cell, const unsigned int face, CopyData &copy)
+    add_on_boundary(const EdgePiece &piece, PartCopy &copy)
     {
-      const auto id = cell->face(face)->boundary_id();
-      const std::pair<unsigned int, unsigned int> key{cell->active_cell_index(),
-                                                      face};
-      const auto                                  acts = [&](const Term *term) {
+      const auto &[part, face, interval] = piece.sides[0];
+      const auto id                      = part.cell->face(face)->boundary_id();
+      const auto key                     = piece.place();
+      const auto acts                    = [&](const Term *term) {
         return term->acts_on_boundary(id, key, state_.actions);
       };
       if (std::none_of(terms_.begin(), terms_.end(), acts))
         return;
-      edge_.reinit(cell, face);
+      if (part.is_cut())
+        edge_.reinit(piece);
+      else
+        edge_.reinit(part.cell, face);
       FaceCopy      &result = start_edge(copy);
       const TermEdge place{edge_,
-                           shell_.penalty_.boundary(cell),
+                           shell_.penalty_.boundary(part),
                            local_,
                            state_.actions,
                            *kinematics_,
@@ -203,10 +283,9 @@ namespace Nacre
       copy.take_block(result);
     }
 
-  private:
     /** The state on the edge, and zero terms. */
     FaceCopy &
-    start_edge(CopyData &copy)
+    start_edge(PartCopy &copy)
     {
       FaceCopy &result = copy.next_face();
       result.dofs      = edge_.dof_indices();

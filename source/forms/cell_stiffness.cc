@@ -54,6 +54,9 @@ namespace Nacre
   full_integration_share(const ShellCellValues &values,
                          const SectionLaw      &section)
   {
+    // On parts of divided cells the membrane strain is projected.
+    if (values.is_cut())
+      return 1.;
     double area = 0., volume = 0.;
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {

@@ -33,7 +33,14 @@ namespace Nacre
     const bool             tied)
     : values(discretization, quadrature, tied)
   {
+    number_membrane_rows();
+  }
+
+  void
+  CorotationalKinematics::CellPoints::number_membrane_rows()
+  {
     const auto &tying = values.tying();
+    n_membrane_rows   = 0;
     membrane_rows.assign(2 * tying.points().size(),
                          numbers::invalid_unsigned_int);
     for (const auto &sample : tying.samples())
@@ -59,6 +66,8 @@ namespace Nacre
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied)
   {
+    full_points_.values.project_on_parts(membrane_strain !=
+                                         MembraneStrain::full);
     if (blends_integration(discretization.element(), membrane_strain))
       reduced_points_.emplace(discretization,
                               discretization.element().reduced_quadrature(),
@@ -72,22 +81,20 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_cell_terms(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u,
-    LocalTerms                                        &terms)
+  CorotationalKinematics::add_cell_terms(const CellPart       &part,
+                                         const Vector<double> &u,
+                                         LocalTerms           &terms)
   {
     in_step_ = false;
     extract_nodes(full_points_.values, u, u_);
-    add_cell(cell, terms);
+    add_cell(part, terms);
   }
 
   void
-  CorotationalKinematics::add_cell_step_terms(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u_start,
-    const Vector<double>                              &u_end,
-    LocalTerms                                        &terms)
+  CorotationalKinematics::add_cell_step_terms(const CellPart       &part,
+                                              const Vector<double> &u_start,
+                                              const Vector<double> &u_end,
+                                              LocalTerms           &terms)
   {
     in_step_ = true;
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
@@ -95,16 +102,17 @@ namespace Nacre
     u_.resize(ends_u_[0].size());
     for (unsigned int a = 0; a < u_.size(); ++a)
       u_[a] = 0.5 * (ends_u_[0][a] + ends_u_[1][a]);
-    add_cell(cell, terms);
+    add_cell(part, terms);
   }
 
   void
-  CorotationalKinematics::add_cell(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    LocalTerms                                        &terms)
+  CorotationalKinematics::add_cell(const CellPart &part, LocalTerms &terms)
   {
-    ShellCellValues &values = full_points_.values;
-    values.reinit_frames(cell);
+    ShellCellValues &values  = full_points_.values;
+    const bool       was_cut = values.is_cut();
+    values.reinit_frames(part);
+    if (values.is_cut() || was_cut)
+      full_points_.number_membrane_rows();
     const double share = reduced_points_.has_value() ?
                            full_integration_share(values, section_) :
                            1.;
@@ -125,7 +133,7 @@ namespace Nacre
     add_bending_terms(full_points_, n_full, terms);
     if (both)
       {
-        reduced_points_->values.reinit_frames(cell);
+        reduced_points_->values.reinit_frames(part);
         reduced_points_->stiffness.reinit(reduced_points_->values,
                                           section_,
                                           1. - share);

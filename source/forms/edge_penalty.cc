@@ -73,42 +73,55 @@ namespace Nacre
       {}
 
       void
-      reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+      reinit(const CellPart &part)
       {
-        values_.reinit(cell);
+        values_.reinit(part);
         double area = 0.;
         for (unsigned int q = 0; q < values_.n_points(); ++q)
           area += values_.JxW(q);
-        size = area / perimeter_.length(discretization_.geometry_nodes(cell));
+        // (16) has whole cells; for parts, this is their size, too.
+        size = area / perimeter_.length(discretization_.geometry_nodes(part));
 
-        // Rows m_nn sqrt(ds / D) on the whole boundary, in local dofs.
+        std::vector<EdgePiece> pieces;
+        for (const auto face : part.cell->face_indices())
+          for (const auto &piece :
+               discretization_.cell_parts().pieces_of(part, face))
+            pieces.push_back(piece);
+        // Rows m_nn sqrt(ds / D) on all edges, in local dofs.
         const unsigned int n_points = edge_.n_points();
-        moments_.reinit(cell->n_faces() * n_points, values_.n_dofs(), true);
-        for (const auto face : cell->face_indices())
+        moments_.reinit(pieces.size() * n_points, values_.n_dofs(), true);
+        for (unsigned int k = 0; k < pieces.size(); ++k)
           {
-            edge_.reinit(cell, face);
+            if (part.is_cut())
+              edge_.reinit(pieces[k]);
+            else
+              edge_.reinit(part.cell, pieces[k].sides[0].face);
             for (unsigned int q = 0; q < n_points; ++q)
-              {
-                side_.reinit(edge_, 0, q, section_);
-                const double weight = std::sqrt(edge_.JxW(q) / side_.stiffness);
-                double *const row   = &moments_(face * n_points + q, 0);
-                for (unsigned int a = 0; a < side_.moment.size(); ++a)
-                  for (unsigned int c = 0; c < spacedim; ++c)
-                    {
-                      double &entry = row[values_.dof(a, c)];
-                      entry         = weight * side_.moment[a] * side_.t0[c];
-                      if (!side_.membrane_moment.empty())
-                        entry += weight * side_.membrane_moment[a][c];
-                    }
-              }
+              add_moment(q, &moments_(k * n_points + q, 0));
           }
-        eigenvalue = largest_eigenvalue();
+        eigenvalue = pieces.empty() ? 0. : largest_eigenvalue();
       }
 
       double size       = 0.;
       double eigenvalue = 0.;
 
     private:
+      /** Set the row of the point @p q of edge_. */
+      void
+      add_moment(const unsigned int q, double *const row)
+      {
+        side_.reinit(edge_, 0, q, section_);
+        const double weight = std::sqrt(edge_.JxW(q) / side_.stiffness);
+        for (unsigned int a = 0; a < side_.moment.size(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              double &entry = row[values_.dof(a, c)];
+              entry         = weight * side_.moment[a] * side_.t0[c];
+              if (!side_.membrane_moment.empty())
+                entry += weight * side_.membrane_moment[a][c];
+            }
+      }
+
       /** Set energy_ to K, the matrix of the second form of the pair. */
       void
       fill_energy()
@@ -222,56 +235,55 @@ namespace Nacre
                            const Quadrature<dim>       &quadrature,
                            const std::optional<double> &eta)
     : eta_(eta)
-    , sizes_(discretization.triangulation().n_active_cells())
-    , eigenvalues_(discretization.triangulation().n_active_cells())
+    , sizes_(discretization.n_part_indices())
+    , eigenvalues_(discretization.n_part_indices())
   {
     run_on_all_ranks(discretization.communicator(), [&]() {
       CellBound cell_bound(discretization, section, quadrature);
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (!cell->is_artificial())
-          {
-            cell_bound.reinit(cell);
-            sizes_[cell->active_cell_index()]       = cell_bound.size;
-            eigenvalues_[cell->active_cell_index()] = cell_bound.eigenvalue;
-          }
+      for (const CellPart &part : discretization.relevant_parts())
+        {
+          cell_bound.reinit(part);
+          sizes_[part.index()]       = cell_bound.size;
+          eigenvalues_[part.index()] = cell_bound.eigenvalue;
+        }
     });
 
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const auto face : cell->face_indices())
-          {
-            const unsigned int k      = cell->active_cell_index();
-            double             size   = sizes_[k];
-            double             lambda = eigenvalues_[k];
-            if (!cell->at_boundary(face) && cell->neighbor(face)->is_active())
-              {
-                const unsigned int n =
-                  cell->neighbor(face)->active_cell_index();
-                size   = std::min(size, sizes_[n]);
-                lambda = std::max(lambda, eigenvalues_[n]);
-              }
-            bound_ = std::max(bound_, 0.5 * size * lambda);
-          }
+    const CellParts &parts = discretization.cell_parts();
+    for (const CellPart &part : discretization.owned_parts())
+      for (const auto face : part.cell->face_indices())
+        {
+          const auto &cell   = part.cell;
+          double      size   = sizes_[part.index()];
+          double      lambda = eigenvalues_[part.index()];
+          if (!cell->at_boundary(face) && cell->neighbor(face)->is_active())
+            {
+              const CellPart::Cell neighbor = cell->neighbor(face);
+              for (unsigned int k = 0; k < parts.n_parts(neighbor); ++k)
+                {
+                  const unsigned int n = parts.part(neighbor, k).index();
+                  size                 = std::min(size, sizes_[n]);
+                  lambda               = std::max(lambda, eigenvalues_[n]);
+                }
+            }
+          bound_ = std::max(bound_, 0.5 * size * lambda);
+        }
     bound_ = Utilities::MPI::max(bound_, discretization.communicator());
   }
 
   double
-  EdgePenalty::interior(const cell_iterator &cell,
-                        const cell_iterator &neighbor) const
+  EdgePenalty::interior(const CellPart &part, const CellPart &neighbor) const
   {
-    const unsigned int k = cell->active_cell_index();
-    const unsigned int n = neighbor->active_cell_index();
+    const unsigned int k = part.index();
+    const unsigned int n = neighbor.index();
     if (eta_)
       return *eta_ / std::min(sizes_[k], sizes_[n]); // (15), (16)
     return std::max(eigenvalues_[k], eigenvalues_[n]);
   }
 
   double
-  EdgePenalty::boundary(const cell_iterator &cell) const
+  EdgePenalty::boundary(const CellPart &part) const
   {
-    const unsigned int k = cell->active_cell_index();
+    const unsigned int k = part.index();
     return eta_ ? *eta_ / sizes_[k] : eigenvalues_[k];
   }
 } // namespace Nacre

@@ -54,16 +54,14 @@ namespace Nacre
     }
     /** Unit directions of the edge's points at an instant. */
     Directions
-    directions(const Discretization &discretization,
-               const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-               const unsigned int                                     face,
-               const ShellEdgeValues                                 &edge,
-               const EdgeConditions &conditions,
-               const Instant        &instant)
+    directions(const Discretization  &discretization,
+               const ShellEdgeValues &edge,
+               const EdgeConditions  &conditions,
+               const Instant         &instant)
     {
-      const auto nodes = discretization.node_positions(cell);
+      const auto nodes = discretization.node_positions(edge.part(0));
       // Other nodes don't move the edge.
-      const auto &edge_nodes = discretization.face_nodes(face);
+      const auto &edge_nodes = discretization.face_nodes(edge.face(0));
       Directions  u;
       for (const unsigned int a : edge_nodes)
         u.push_back(conditions.displacement(nodes[a], instant));
@@ -87,13 +85,11 @@ namespace Nacre
   } // namespace
 
   std::vector<Tensor<2, spacedim>>
-  follow_edge_turns(const Discretization &discretization,
-                    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-                    const unsigned int                                     face,
-                    const ShellEdgeValues                                 &edge,
-                    const EdgeConditions &conditions,
-                    const Expression     &load_factor,
-                    const double          time)
+  follow_edge_turns(const Discretization  &discretization,
+                    const ShellEdgeValues &edge,
+                    const EdgeConditions  &conditions,
+                    const Expression      &load_factor,
+                    const double           time)
   {
     Directions now;
     for (unsigned int q = 0; q < edge.n_points(); ++q)
@@ -104,8 +100,6 @@ namespace Nacre
     const std::function<void(double, double, unsigned int)> advance =
       [&](const double from, const double to, const unsigned int halvings) {
         const auto next = directions(discretization,
-                                     cell,
-                                     face,
                                      edge,
                                      conditions,
                                      {to, load_factor(Point<3>(), to)});

@@ -51,6 +51,8 @@ namespace Nacre
                    membrane_strain == MembraneStrain::tied,
                    true)
   {
+    full_points_.values.project_on_parts(membrane_strain !=
+                                         MembraneStrain::full);
     if (blends_integration(discretization.element(), membrane_strain))
       reduced_points_.emplace(discretization,
                               discretization.element().reduced_quadrature(),
@@ -59,24 +61,23 @@ namespace Nacre
   }
 
   void
-  FiniteCellTerms::add(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                       const Vector<double>                              &u,
-                       LocalTerms                                        &terms)
+  FiniteCellTerms::add(const CellPart       &part,
+                       const Vector<double> &u,
+                       LocalTerms           &terms)
   {
     extract_nodes(full_points_.values, u, u_);
-    add_terms(cell, false, terms);
+    add_terms(part, false, terms);
   }
 
   void
-  FiniteCellTerms::add_step(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u_start,
-    const Vector<double>                              &u_end,
-    LocalTerms                                        &terms)
+  FiniteCellTerms::add_step(const CellPart       &part,
+                            const Vector<double> &u_start,
+                            const Vector<double> &u_end,
+                            LocalTerms           &terms)
   {
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
-    add_terms(cell, true, terms);
+    add_terms(part, true, terms);
   }
 
   void
@@ -124,13 +125,12 @@ namespace Nacre
   }
 
   void
-  FiniteCellTerms::add_terms(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const bool                                         in_step,
-    LocalTerms                                        &terms)
+  FiniteCellTerms::add_terms(const CellPart &part,
+                             const bool      in_step,
+                             LocalTerms     &terms)
   {
     const auto &values = full_points_.values;
-    full_points_.values.reinit_frames(cell);
+    full_points_.values.reinit_frames(part);
     const double share = reduced_points_.has_value() ?
                            full_integration_share(values, section_) :
                            1.;
@@ -158,7 +158,7 @@ namespace Nacre
     add_points(full_points_, share);
     if (share < 1.)
       {
-        reduced_points_->values.reinit_frames(cell);
+        reduced_points_->values.reinit_frames(part);
         add_points(*reduced_points_, 1. - share);
       }
     for (unsigned int a = 0; a < force_.size(); ++a)

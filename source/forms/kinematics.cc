@@ -65,14 +65,13 @@ namespace Nacre
   } // namespace
 
   void
-  Kinematics::add_cell_step_terms(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u_start,
-    const Vector<double>                              &u_end,
-    LocalTerms                                        &terms)
+  Kinematics::add_cell_step_terms(const CellPart       &part,
+                                  const Vector<double> &u_start,
+                                  const Vector<double> &u_end,
+                                  LocalTerms           &terms)
   {
     const Energies energies = terms.energies;
-    add_cell_terms(cell, mean(u_start, u_end), terms);
+    add_cell_terms(part, mean(u_start, u_end), terms);
     terms.energies = energies;
   }
 

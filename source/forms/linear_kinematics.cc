@@ -32,6 +32,7 @@ namespace Nacre
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied)
   {
+    full_values_.project_on_parts(membrane_strain != MembraneStrain::full);
     if (blends_integration(discretization.element(), membrane_strain))
       reduced_values_.emplace(discretization,
                               discretization.element().reduced_quadrature(),
@@ -163,12 +164,11 @@ namespace Nacre
   }
 
   void
-  LinearKinematics::add_cell_terms(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const Vector<double>                              &u,
-    LocalTerms                                        &terms)
+  LinearKinematics::add_cell_terms(const CellPart       &part,
+                                   const Vector<double> &u,
+                                   LocalTerms           &terms)
   {
-    full_values_.reinit(cell);
+    full_values_.reinit(part);
     const bool   reduced = reduced_values_.has_value();
     const double share =
       reduced ? full_integration_share(full_values_, section_) : 1.;
@@ -187,7 +187,7 @@ namespace Nacre
     add_initial_terms(full_values_, {{share, 1.}}, u, terms);
     if (reduced && share < 1.)
       {
-        reduced_values_->reinit(cell);
+        reduced_values_->reinit(part);
         stiffness_.reinit(*reduced_values_, section_, 1. - share);
         terms.energies.membrane +=
           add_strain_terms(reduced_values_->membrane_rows(),

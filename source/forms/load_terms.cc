@@ -156,10 +156,9 @@ namespace Nacre
         const auto &place = places_[k];
         if (!place.is_mine)
           continue;
-        const auto             n = discretization_.node_dofs().size();
-        dealii::Vector<double> local(n);
-        std::vector<types::global_dof_index> dofs(n);
-        place.cell->get_dof_indices(dofs);
+        std::vector<types::global_dof_index> dofs;
+        discretization_.get_dof_indices(place.part, dofs);
+        dealii::Vector<double> local(dofs.size());
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             local[discretization_.node_dofs()[spacedim * a + c]] =

@@ -2,11 +2,8 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
-#include <nacre/discretization/shape_table.h>
+#include <nacre/discretization/shell_values.h>
 #include <nacre/forms/mass_terms.h>
-
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
 
 #include <sstream>
 
@@ -36,37 +33,27 @@ namespace Nacre
   MassTerms::make_matrices(
     const std::function<double(const SectionPoint &)> &area_density)
   {
-    cell_matrices_.resize(discretization_.triangulation().n_active_cells());
-    const auto rule = discretization_.element().full_quadrature();
-    const FE_Nothing<dim, spacedim> fe_nothing(
-      discretization_.element().reference_cell());
-    FEValues<dim, spacedim> fe_values(discretization_.mapping(),
-                                      fe_nothing,
-                                      rule,
-                                      update_JxW_values |
-                                        update_quadrature_points);
-    const ShapeTable shapes(discretization_.scalar_fe(), rule.get_points());
-    const auto       n = shapes.n_nodes();
-
+    cell_matrices_.resize(discretization_.n_part_indices());
+    ShellCellValues values(discretization_,
+                           discretization_.element().full_quadrature(),
+                           false);
     run_on_all_ranks(discretization_.communicator(), [&]() {
-      for (const auto &cell :
-           discretization_.triangulation().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            fe_values.reinit(cell);
-            auto &M = cell_matrices_[cell->active_cell_index()];
-            M.reinit(n, n);
-            for (unsigned int q = 0; q < rule.size(); ++q)
-              {
-                const double dm = area_density({fe_values.quadrature_point(q),
-                                                cell->material_id()}) *
-                                  fe_values.JxW(q);
-                total_ += dm;
-                for (unsigned int a = 0; a < n; ++a)
-                  for (unsigned int b = 0; b < n; ++b)
-                    M(a, b) += dm * shapes.value(q, a) * shapes.value(q, b);
-              }
-          }
+      for (const CellPart &part : discretization_.owned_parts())
+        {
+          values.reinit_frames(part);
+          const auto &shapes = values.shapes();
+          const auto  n      = shapes.n_nodes();
+          auto       &M      = cell_matrices_[part.index()];
+          M.reinit(n, n);
+          for (unsigned int q = 0; q < values.n_points(); ++q)
+            {
+              const double dm = area_density(values.point(q)) * values.JxW(q);
+              total_ += dm;
+              for (unsigned int a = 0; a < n; ++a)
+                for (unsigned int b = 0; b < n; ++b)
+                  M(a, b) += dm * shapes.value(q, a) * shapes.value(q, b);
+            }
+        }
     });
     total_ = Utilities::MPI::sum(total_, discretization_.communicator());
   }
@@ -88,15 +75,13 @@ namespace Nacre
     const auto &node_dofs = discretization_.node_dofs();
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     dealii::Vector<double>               local(node_dofs.size());
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          local = 0.;
-          add_on_cell(cell, dofs, v, 0., local, nullptr);
-          result.add(dofs, std::vector<double>(local.begin(), local.end()));
-        }
+    for (const CellPart &part : discretization_.owned_parts())
+      {
+        discretization_.get_dof_indices(part, dofs);
+        local = 0.;
+        add_on_cell(part, dofs, v, 0., local, nullptr);
+        result.add(dofs, std::vector<double>(local.begin(), local.end()));
+      }
     result.compress(VectorOperation::add);
   }
 
@@ -112,15 +97,13 @@ namespace Nacre
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     FullMatrix<double>     local(node_dofs.size(), node_dofs.size());
     dealii::Vector<double> unused(node_dofs.size());
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          local = 0.;
-          add_on_cell(cell, dofs, ghosted_b, 1., unused, &local);
-          constraints.distribute_local_to_global(local, dofs, matrix);
-        }
+    for (const CellPart &part : discretization_.owned_parts())
+      {
+        discretization_.get_dof_indices(part, dofs);
+        local = 0.;
+        add_on_cell(part, dofs, ghosted_b, 1., unused, &local);
+        constraints.distribute_local_to_global(local, dofs, matrix);
+      }
     matrix.compress(VectorOperation::add);
     // b is a sum over nodes already: each rank adds what it owns.
     dealii::Vector<double> entry(1);
@@ -136,15 +119,14 @@ namespace Nacre
   }
 
   void
-  MassTerms::add_on_cell(
-    const Triangulation<dim, spacedim>::cell_iterator &cell,
-    const std::vector<types::global_dof_index>        &dofs,
-    const Vector                                      &w,
-    const double                                       factor,
-    dealii::Vector<double>                            &residual,
-    FullMatrix<double>                                *tangent) const
+  MassTerms::add_on_cell(const CellPart                             &part,
+                         const std::vector<types::global_dof_index> &dofs,
+                         const Vector                               &w,
+                         const double                                factor,
+                         dealii::Vector<double>                     &residual,
+                         FullMatrix<double> *tangent) const
   {
-    const auto &M         = cell_matrix(cell);
+    const auto &M         = cell_matrix(part);
     const auto &node_dofs = discretization_.node_dofs();
     for (unsigned int a = 0; a < M.m(); ++a)
       for (unsigned int b = 0; b < M.n(); ++b)
@@ -171,7 +153,7 @@ namespace Nacre
   void
   Inertia::add_on_cell(TermCell &cell, LocalTerms &terms) const
   {
-    mass_.add_on_cell(cell.cell,
+    mass_.add_on_cell(cell.part,
                       cell.dofs,
                       w_,
                       factor_,

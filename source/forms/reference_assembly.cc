@@ -466,9 +466,9 @@ namespace Nacre
           discretization_.dof_handler().get_fe(),
           Quadrature<dim>(place.unit),
           update_values);
-        fe_values.reinit(place.cell);
+        fe_values.reinit(place.part.cell);
         std::vector<types::global_dof_index> dofs(fe_values.dofs_per_cell);
-        place.cell->get_dof_indices(dofs);
+        place.part.cell->get_dof_indices(dofs);
         dealii::Vector<double> local(dofs.size());
         for (const unsigned int i : fe_values.dof_indices())
           local(i) = force * fe_values[displacement].value(i, 0);

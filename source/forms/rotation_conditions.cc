@@ -41,18 +41,23 @@ namespace Nacre
         }))
       return;
     ShellEdgeValues values(discretization_);
-    for (const auto &cell :
-         discretization_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const auto f : cell->face_indices())
-          if (cell->at_boundary(f))
-            {
-              const auto found = edges.find(cell->face(f)->boundary_id());
-              if (found == edges.end() || found->second.rotation == nullptr)
-                continue;
-              values.reinit(cell, f);
-              work({cell, f, found->second, values});
-            }
+    for (const CellPart &part : discretization_.owned_parts())
+      for (const auto f : part.cell->face_indices())
+        if (part.cell->at_boundary(f))
+          {
+            const auto found = edges.find(part.cell->face(f)->boundary_id());
+            if (found == edges.end() || found->second.rotation == nullptr)
+              continue;
+            for (const auto &piece :
+                 discretization_.cell_parts().pieces_of(part, f))
+              {
+                if (part.is_cut())
+                  values.reinit(piece);
+                else
+                  values.reinit(part.cell, f);
+                work({piece, found->second, values});
+              }
+          }
   }
 
   PrescribedRotations
@@ -68,8 +73,6 @@ namespace Nacre
       if (load_factor_ == nullptr || !edge.conditions.may_turn())
         return;
       const auto turns = follow_edge_turns(discretization_,
-                                           edge.cell,
-                                           edge.face,
                                            edge.values,
                                            edge.conditions,
                                            *load_factor_,
@@ -95,7 +98,7 @@ namespace Nacre
     for_each([&](const Edge &edge) {
       terms.reinit(edge.values.n_dofs());
       kinematics->add_rotation_step_terms(edge.values,
-                                          penalty_.boundary(edge.cell),
+                                          penalty_.boundary(edge.part()),
                                           start.rotations.at(edge.place()),
                                           end.at(edge.place()),
                                           edge.extract(start.u),
@@ -117,17 +120,18 @@ namespace Nacre
     Tensor<1, spacedim> sum;
     terms.wants_tangent = false;
     for_each([&](const Edge &edge) {
-      if (edge.cell->face(edge.face)->boundary_id() != id)
+      const auto &side = edge.piece.sides[0];
+      if (side.part.cell->face(side.face)->boundary_id() != id)
         return;
       const dealii::Vector<double> local = edge.extract(u);
       terms.reinit(local.size());
       kinematics->add_rotation_terms(edge.values,
-                                     penalty_.boundary(edge.cell),
+                                     penalty_.boundary(edge.part()),
                                      rotations.at(edge.place()),
                                      local,
                                      terms);
       // Virtual work on the rigid rotation e_k x x.
-      const auto nodes = discretization_.node_positions(edge.cell);
+      const auto nodes = discretization_.node_positions(edge.part());
       for (unsigned int a = 0; a < nodes.size(); ++a)
         {
           Tensor<1, spacedim> x(nodes[a]), force;

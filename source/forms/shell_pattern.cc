@@ -57,7 +57,7 @@ namespace Nacre
       }
     };
 
-    /** Blocks of this rank's cells and ghosts, and which of them couple. */
+    /** Blocks of this rank's parts and ghosts, and which of them couple. */
     class CoupledBlocks
     {
     public:
@@ -142,15 +142,6 @@ namespace Nacre
       }
 
     private:
-      template <typename Function>
-      void
-      for_each_cell(const Function &function) const
-      {
-        for (const auto &cell :
-             discretization_.dof_handler().active_cell_iterators())
-          function(cell);
-      }
-
       /** Call @p use with each dof on which eliminated ones of these depend. */
       template <typename Function>
       void
@@ -191,14 +182,14 @@ namespace Nacre
       collect_blocks()
       {
         const auto &fe = discretization_.dof_handler().get_fe();
-        Dofs        dofs(fe.n_dofs_per_cell()), masters;
-        for_each_cell([&](const auto &cell) {
-          if (cell->is_artificial())
-            return;
-          cell->get_dof_indices(dofs);
-          for_each_master(dofs, [&](const Dof dof) { masters.push_back(dof); });
-          append_blocks(fe, cell->n_lines(), dofs, blocks_);
-        });
+        Dofs        dofs, masters;
+        for (const CellPart &part : discretization_.relevant_parts())
+          {
+            discretization_.get_dof_indices(part, dofs);
+            for_each_master(dofs,
+                            [&](const Dof dof) { masters.push_back(dof); });
+            append_blocks(fe, part.cell->n_lines(), dofs, blocks_);
+          }
         sort_blocks();
 
         // Eliminated dofs of ghosts may depend on dofs beyond the ghosts.
@@ -235,49 +226,58 @@ namespace Nacre
                dof < blocks_[block].start + blocks_[block].length;
       }
 
-      /** Blocks and neighbours of each cell. */
+      /** Blocks and neighbours of each part. */
       void
       collect_cells()
       {
-        const auto        &fe = discretization_.dof_handler().get_fe();
-        Dofs               dofs(fe.n_dofs_per_cell());
+        const auto        &fe    = discretization_.dof_handler().get_fe();
+        const auto         parts = discretization_.relevant_parts();
+        Dofs               dofs;
         std::vector<Block> blocks;
-        for_each_cell([&](const auto &cell) {
-          is_mine_.push_back(cell->is_locally_owned());
-          if (!cell->is_artificial())
-            {
-              blocks.clear();
-              cell->get_dof_indices(dofs);
-              append_blocks(fe, cell->n_lines(), dofs, blocks);
-              for (const auto &block : blocks)
-                cell_blocks_.entries.push_back(block_of(block.start));
-              for_each_master(dofs, [&](const Dof dof) {
-                cell_blocks_.entries.push_back(block_of(dof));
-              });
-              append_neighbors(cell);
-            }
-          cell_blocks_.close();
-          neighbors_.close();
-        });
+        place_.assign(discretization_.n_part_indices(), 0);
+        for (unsigned int k = 0; k < parts.size(); ++k)
+          place_[parts[k].index()] = k;
+        for (const CellPart &part : parts)
+          {
+            is_mine_.push_back(part.cell->is_locally_owned());
+            blocks.clear();
+            discretization_.get_dof_indices(part, dofs);
+            append_blocks(fe, part.cell->n_lines(), dofs, blocks);
+            for (const auto &block : blocks)
+              cell_blocks_.entries.push_back(block_of(block.start));
+            for_each_master(dofs, [&](const Dof dof) {
+              cell_blocks_.entries.push_back(block_of(dof));
+            });
+            append_neighbors(part);
+            cell_blocks_.close();
+            neighbors_.close();
+          }
       }
 
-      template <typename Cell>
       void
-      append_neighbors(const Cell &cell)
+      append_neighbors(const CellPart &part)
       {
-        const auto append = [&](const auto &neighbor) {
-          if (!neighbor->is_artificial())
-            neighbors_.entries.push_back(neighbor->active_cell_index());
+        const auto      &cell   = part.cell;
+        const CellParts &cuts   = discretization_.cell_parts();
+        const auto       append = [&](const CellPart &neighbor) {
+          if (!neighbor.cell->is_artificial())
+            neighbors_.entries.push_back(place_[neighbor.index()]);
         };
         for (const auto face : cell->face_indices())
           {
             if (cell->at_boundary(face))
               continue;
-            if (cell->neighbor(face)->is_active())
-              append(cell->neighbor(face));
+            if (cuts.has_pieces(cell, face))
+              {
+                for (const auto &piece : cuts.pieces_between(cell, face))
+                  if (piece.sides[0].part.index() == part.index())
+                    append(piece.sides[1].part);
+              }
+            else if (cell->neighbor(face)->is_active())
+              append(cuts.part(cell->neighbor(face)));
             else
               for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
-                append(cell->neighbor_child_on_subface(face, s));
+                append(cuts.part(cell->neighbor_child_on_subface(face, s)));
           }
       }
 
@@ -302,7 +302,8 @@ namespace Nacre
       const AffineConstraints<double> &constraints_;
       std::vector<Block>               blocks_;
       std::vector<bool>                is_free_; // no dof of it constrained
-      std::vector<bool>                is_mine_; // by active cell index
+      std::vector<bool>                is_mine_; // by relevant part
+      std::vector<unsigned int>        place_;   // by CellPart::index()
       Lists                            cell_blocks_;
       Lists                            neighbors_;
       Lists                            block_cells_;

@@ -10,12 +10,12 @@ namespace Nacre
   {
     const LocalState &state = cell.state;
     if (state.is_step())
-      cell.kinematics().add_cell_step_terms(cell.cell,
+      cell.kinematics().add_cell_step_terms(cell.part,
                                             state.u_start,
                                             state.u_end,
                                             terms);
     else
-      cell.kinematics().add_cell_terms(cell.cell, state.u, terms);
+      cell.kinematics().add_cell_terms(cell.part, state.u, terms);
   }
 
   void

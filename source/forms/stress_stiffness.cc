@@ -121,10 +121,11 @@ namespace Nacre
                         const AffineConstraints<double> &constraints,
                         Matrix                          &matrix) const
   {
-    const Element                   &element = discretization_.element();
-    ShellCellValues                  full(discretization_,
+    const Element  &element = discretization_.element();
+    ShellCellValues full(discretization_,
                          cell_quadrature(element, membrane_strain_),
                          membrane_strain_ == MembraneStrain::tied);
+    full.project_on_parts(membrane_strain_ != MembraneStrain::full);
     std::unique_ptr<ShellCellValues> reduced;
     if (blends_integration(element, membrane_strain_))
       reduced = std::make_unique<ShellCellValues>(discretization_,
@@ -143,23 +144,21 @@ namespace Nacre
                             local);
     };
     run_on_all_ranks(discretization_.communicator(), [&]() {
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            local = 0.;
-            full.reinit(cell);
-            const double share =
-              reduced ? full_integration_share(full, section_) : 1.;
-            add_points(full, share);
-            if (share < 1.)
-              {
-                reduced->reinit(cell);
-                add_points(*reduced, 1. - share);
-              }
-            constraints.distribute_local_to_global(local, dofs, matrix);
-          }
+      for (const CellPart &part : discretization_.owned_parts())
+        {
+          discretization_.get_dof_indices(part, dofs);
+          local = 0.;
+          full.reinit(part);
+          const double share =
+            reduced ? full_integration_share(full, section_) : 1.;
+          add_points(full, share);
+          if (share < 1.)
+            {
+              reduced->reinit(part);
+              add_points(*reduced, 1. - share);
+            }
+          constraints.distribute_local_to_global(local, dofs, matrix);
+        }
     });
   }
 } // namespace Nacre

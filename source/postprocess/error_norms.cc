@@ -65,20 +65,28 @@ namespace Nacre
       {}
 
       void
-      add(const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+      add(const CellPart &part)
       {
-        values_.reinit(cell);
-        cell->get_dof_indices(dofs_);
+        values_.reinit(part);
+        shell_.discretization.get_dof_indices(part, dofs_);
         for (unsigned int i = 0; i < dofs_.size(); ++i)
           u_[i] = shell_.displacement(dofs_[i]);
 
         exact_.clear();
         for (const auto &unit : fine_fe_.get_unit_support_points())
           exact_.push_back(shell_.model.exact_solution.displacement(
-            shell_.discretization.mapping().transform_unit_to_real_cell(cell,
-                                                                        unit)));
-        for (unsigned int q = 0; q < values_.n_points(); ++q)
-          add_point(q);
+            shell_.discretization.mapping()
+              .transform_unit_to_real_cell(part.cell, unit)));
+        if (part.is_cut())
+          {
+            const ShapeTable shapes(fine_fe_,
+                                    values_.quadrature().get_points());
+            for (unsigned int q = 0; q < values_.n_points(); ++q)
+              add_point(q, shapes);
+          }
+        else
+          for (unsigned int q = 0; q < values_.n_points(); ++q)
+            add_point(q, fine_shapes_);
       }
 
       /** L2, H1, energy. */
@@ -86,11 +94,11 @@ namespace Nacre
 
     private:
       void
-      add_point(const unsigned int q)
+      add_point(const unsigned int q, const ShapeTable &fine_shapes)
       {
         Field exact;
         for (unsigned int a = 0; a < exact_.size(); ++a)
-          exact.add(fine_shapes_, q, a, exact_[a]);
+          exact.add(fine_shapes, q, a, exact_[a]);
         Field error = exact;
         for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
           {
@@ -139,10 +147,8 @@ namespace Nacre
     const auto &discretization = shell.discretization;
     CellErrors  errors(shell);
     run_on_all_ranks(discretization.communicator(), [&]() {
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          errors.add(cell);
+      for (const CellPart &part : discretization.owned_parts())
+        errors.add(part);
     });
     const auto root = [&](const double square) {
       return std::sqrt(

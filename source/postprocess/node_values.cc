@@ -21,27 +21,26 @@ namespace Nacre
     std::vector<Line>                    lines;
     std::set<types::global_dof_index>    visited;
     std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          const auto nodes = space.node_positions(cell);
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            {
-              const auto first = dofs[node_dofs[spacedim * a]];
-              if (!space.locally_owned_dofs().is_element(first) ||
-                  !visited.insert(first).second)
-                continue;
-              Line line;
-              for (unsigned int c = 0; c < spacedim; ++c)
-                {
-                  line[c] = nodes[a][c];
-                  line[spacedim + c] =
-                    shell.displacement(dofs[node_dofs[spacedim * a + c]]);
-                }
-              lines.push_back(line);
-            }
-        }
+    for (const CellPart &part : space.owned_parts())
+      {
+        space.get_dof_indices(part, dofs);
+        const auto nodes = space.node_positions(part);
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          {
+            const auto first = dofs[node_dofs[spacedim * a]];
+            if (!space.locally_owned_dofs().is_element(first) ||
+                !visited.insert(first).second)
+              continue;
+            Line line;
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                line[c] = nodes[a][c];
+                line[spacedim + c] =
+                  shell.displacement(dofs[node_dofs[spacedim * a + c]]);
+              }
+            lines.push_back(line);
+          }
+      }
     const auto all = Utilities::MPI::gather(communicator, lines);
     run_on_root(communicator, [&]() {
       write_file(name, [&](std::ostream &out) {

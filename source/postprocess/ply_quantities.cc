@@ -95,7 +95,7 @@ namespace Nacre
       if (!place.is_mine)
         return;
       StrainValues strains(shell, Quadrature<dim>(place.unit));
-      strains.reinit(place.cell);
+      strains.reinit(place.part);
       value = value_of(quantity,
                        shell.section().layers(strains.membrane(0),
                                               strains.bending(0),

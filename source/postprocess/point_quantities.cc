@@ -226,7 +226,7 @@ namespace Nacre
       CellResults results(state,
                           Quadrature<dim>(place.unit),
                           quantity.kind == Kind::transverse_shear);
-      results.reinit(place.cell);
+      results.reinit(place.part);
       value = value_of(quantity, results.at(0));
     });
     return Utilities::MPI::sum(value, discretization.communicator());
@@ -245,25 +245,23 @@ namespace Nacre
         state,
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
         false);
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            results.reinit(cell);
-            for (unsigned int q = 0;
-                 q < discretization.scalar_fe().n_dofs_per_cell();
-                 ++q)
-              {
-                const PointResults r = results.at(q);
-                const auto        &stress =
-                  r.stress[static_cast<unsigned int>(quantity.face)];
-                const double value =
-                  quantity.kind == Extreme::largest_von_mises ?
-                    r.von_mises(quantity.face) :
-                    r.principal(stress)[sign > 0. ? 0 : 1].value;
-                largest = std::max(largest, sign * value);
-              }
-          }
+      for (const CellPart &part : discretization.owned_parts())
+        {
+          results.reinit(part);
+          for (unsigned int q = 0;
+               q < discretization.scalar_fe().n_dofs_per_cell();
+               ++q)
+            {
+              const PointResults r = results.at(q);
+              const auto        &stress =
+                r.stress[static_cast<unsigned int>(quantity.face)];
+              const double value =
+                quantity.kind == Extreme::largest_von_mises ?
+                  r.von_mises(quantity.face) :
+                  r.principal(stress)[sign > 0. ? 0 : 1].value;
+              largest = std::max(largest, sign * value);
+            }
+        }
     });
     return sign * Utilities::MPI::max(largest, discretization.communicator());
   }

@@ -59,12 +59,11 @@ namespace Nacre
   }
 
   void
-  CellResults::reinit(
-    const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+  CellResults::reinit(const CellPart &part)
   {
-    strains_.reinit(cell);
+    strains_.reinit(part);
     if (shear_)
-      shear_->reinit(cell);
+      shear_->reinit(part.cell);
   }
 
   PointResults

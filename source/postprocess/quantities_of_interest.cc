@@ -37,10 +37,11 @@ namespace Nacre
         {
           ShellCellValues values(discretization,
                                  Quadrature<dim>(place.unit),
-                                 false);
-          values.reinit(place.cell);
-          std::vector<types::global_dof_index> dofs(values.n_dofs());
-          place.cell->get_dof_indices(dofs);
+                                 false,
+                                 ShellCellValues::Points::given);
+          values.reinit(place.part);
+          std::vector<types::global_dof_index> dofs;
+          discretization.get_dof_indices(place.part, dofs);
           const Vector3 d = direction ? *direction : values.frame(0).t0;
           for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
             for (unsigned int c = 0; c < spacedim; ++c)
@@ -71,19 +72,17 @@ namespace Nacre
       const auto &node_dofs      = discretization.node_dofs();
       double      maximum        = 0.;
       std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
-              {
-                Vector3 u;
-                for (unsigned int c = 0; c < spacedim; ++c)
-                  u[c] = shell.displacement(dofs[node_dofs[spacedim * a + c]]);
-                maximum = std::max(maximum, u.norm());
-              }
-          }
+      for (const CellPart &part : discretization.owned_parts())
+        {
+          discretization.get_dof_indices(part, dofs);
+          for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
+            {
+              Vector3 u;
+              for (unsigned int c = 0; c < spacedim; ++c)
+                u[c] = shell.displacement(dofs[node_dofs[spacedim * a + c]]);
+              maximum = std::max(maximum, u.norm());
+            }
+        }
       return Utilities::MPI::max(maximum, discretization.communicator());
     }
 
@@ -161,28 +160,26 @@ namespace Nacre
         std::vector<types::global_dof_index> dofs(node_dofs.size());
         std::set<types::global_dof_index>    visited;
         Vector3                              sum;
-        for (const auto &cell :
-             discretization.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              cell->get_dof_indices(dofs);
-              const auto nodes = discretization.node_positions(cell);
-              for (unsigned int a = 0; a < nodes.size(); ++a)
-                {
-                  const auto first = dofs[node_dofs[spacedim * a]];
-                  if (!discretization.locally_owned_dofs().is_element(first) ||
-                      !visited.insert(first).second)
-                    continue;
-                  Vector3 x(nodes[a]), p;
-                  for (unsigned int d = 0; d < spacedim; ++d)
-                    {
-                      const auto i = dofs[node_dofs[spacedim * a + d]];
-                      x[d] += shell.displacement(i);
-                      p[d] = Mv(i);
-                    }
-                  sum += angular ? cross_product_3d(x, p) : p;
-                }
-            }
+        for (const CellPart &part : discretization.owned_parts())
+          {
+            discretization.get_dof_indices(part, dofs);
+            const auto nodes = discretization.node_positions(part);
+            for (unsigned int a = 0; a < nodes.size(); ++a)
+              {
+                const auto first = dofs[node_dofs[spacedim * a]];
+                if (!discretization.locally_owned_dofs().is_element(first) ||
+                    !visited.insert(first).second)
+                  continue;
+                Vector3 x(nodes[a]), p;
+                for (unsigned int d = 0; d < spacedim; ++d)
+                  {
+                    const auto i = dofs[node_dofs[spacedim * a + d]];
+                    x[d] += shell.displacement(i);
+                    p[d] = Mv(i);
+                  }
+                sum += angular ? cross_product_3d(x, p) : p;
+              }
+          }
         return Utilities::MPI::sum(sum, discretization.communicator())[c];
       };
     }

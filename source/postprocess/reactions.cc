@@ -111,7 +111,7 @@ namespace Nacre
           if (owned.is_element(node.dofs[0]))
             set(node.position, node.dofs);
       v.compress(VectorOperation::insert);
-      discretization.hanging_node_constraints().distribute(v);
+      discretization.node_constraints().distribute(v);
 
       const auto         &between = conditions.points_between_nodes();
       const auto          chosen  = chosen_conditions(conditions,
@@ -163,31 +163,29 @@ namespace Nacre
       Resultant       sum;
       std::vector<types::global_dof_index> dofs(node_dofs.size());
       std::vector<bool>                    visited(owned.n_elements());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            cell->get_dof_indices(dofs);
-            const auto nodes = discretization.node_positions(cell);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              {
-                const auto first = dofs[node_dofs[spacedim * a]];
-                if (!owned.is_element(first) ||
-                    visited[owned.index_within_set(first)])
-                  continue;
-                visited[owned.index_within_set(first)] = true;
-                Vector3 u, force;
-                for (unsigned int c = 0; c < spacedim; ++c)
-                  {
-                    const auto i = dofs[node_dofs[spacedim * a + c]];
-                    u[c]         = shell.displacement(i);
-                    force[c]     = f(i);
-                  }
-                sum.force += force;
-                sum.moment +=
-                  cross_product_3d(lever(shell, origin, nodes[a], u), force);
-              }
-          }
+      for (const CellPart &part : discretization.owned_parts())
+        {
+          discretization.get_dof_indices(part, dofs);
+          const auto nodes = discretization.node_positions(part);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            {
+              const auto first = dofs[node_dofs[spacedim * a]];
+              if (!owned.is_element(first) ||
+                  visited[owned.index_within_set(first)])
+                continue;
+              visited[owned.index_within_set(first)] = true;
+              Vector3 u, force;
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const auto i = dofs[node_dofs[spacedim * a + c]];
+                  u[c]         = shell.displacement(i);
+                  force[c]     = f(i);
+                }
+              sum.force += force;
+              sum.moment +=
+                cross_product_3d(lever(shell, origin, nodes[a], u), force);
+            }
+        }
       const auto communicator = discretization.communicator();
       sum.force               = Utilities::MPI::sum(sum.force, communicator);
       sum.moment              = Utilities::MPI::sum(sum.moment, communicator);

@@ -11,29 +11,35 @@ namespace Nacre
   StrainValues::StrainValues(const ShellState      &state,
                              const Quadrature<dim> &points)
     : is_linear_(state.model.kinematics.model == KinematicsModel::linear)
+    , discretization_(state.discretization)
     , displacement_(state.displacement)
     , values_(state.discretization,
               points,
-              recovers_tied_strain(state.model.kinematics.membrane_strain))
+              recovers_tied_strain(state.model.kinematics.membrane_strain),
+              ShellCellValues::Points::given)
     , u_(values_.n_dofs())
     , membrane_(3 * points.size())
     , bending_(3 * points.size())
-  {}
+  {
+    values_.project_on_parts(state.model.kinematics.membrane_strain !=
+                             MembraneStrain::full);
+  }
 
   void
-  StrainValues::reinit(
-    const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+  StrainValues::reinit(const CellPart &part)
   {
-    cell->get_dof_values(displacement_, u_);
+    discretization_.get_dof_indices(part, dofs_);
+    for (unsigned int i = 0; i < dofs_.size(); ++i)
+      u_[i] = displacement_(dofs_[i]);
     if (is_linear_)
       {
-        values_.reinit(cell);
+        values_.reinit(part);
         values_.membrane_rows().vmult(membrane_, u_);
         values_.bending_rows().vmult(bending_, u_);
       }
     else
       {
-        values_.reinit_frames(cell);
+        values_.reinit_frames(part);
         fill_finite_strains();
       }
   }

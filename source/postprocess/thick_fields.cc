@@ -112,38 +112,36 @@ namespace Nacre
     const FlatCells flat = triangles ? cut_triangle(n) : cut_quadrilateral(n);
     const unsigned int n_layers = std::max(state.model.section.n_layers(), 1U);
     CellResults        results(state, Quadrature<dim>(flat.points), false);
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          results.reinit(cell);
-          std::vector<PointResults> here;
-          for (unsigned int q = 0; q < flat.points.size(); ++q)
-            here.push_back(results.with_layers(q));
-          for (unsigned int k = 0; k < n_layers; ++k)
-            for (const auto &corners : flat.corners)
-              {
-                Patch patch;
-                patch.patch_index    = patches_.size();
-                patch.reference_cell = triangles ? ReferenceCells::Wedge :
-                                                   ReferenceCells::Hexahedron;
-                patch.n_subdivisions = 1;
-                patch.data.reinit(n_thick_components, 2 * corners.size());
-                unsigned int vertex = 0;
-                // VTK's wedges begin with the triangle on the top.
-                for (unsigned int f = 0; f < 2; ++f)
-                  for (const unsigned int q : corners)
-                    {
-                      const unsigned int face = triangles ? 1 - f : f;
-                      const auto p = body_point(here[q], results, q, k, face);
-                      patch.vertices[vertex] = p.position;
-                      for (unsigned int c = 0; c < n_thick_components; ++c)
-                        patch.data(c, vertex) = p.data[c];
-                      ++vertex;
-                    }
-                patches_.push_back(std::move(patch));
-              }
-        }
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        results.reinit(part);
+        std::vector<PointResults> here;
+        for (unsigned int q = 0; q < flat.points.size(); ++q)
+          here.push_back(results.with_layers(q));
+        for (unsigned int k = 0; k < n_layers; ++k)
+          for (const auto &corners : flat.corners)
+            {
+              Patch patch;
+              patch.patch_index = patches_.size();
+              patch.reference_cell =
+                triangles ? ReferenceCells::Wedge : ReferenceCells::Hexahedron;
+              patch.n_subdivisions = 1;
+              patch.data.reinit(n_thick_components, 2 * corners.size());
+              unsigned int vertex = 0;
+              // VTK's wedges begin with the triangle on the top.
+              for (unsigned int f = 0; f < 2; ++f)
+                for (const unsigned int q : corners)
+                  {
+                    const unsigned int face = triangles ? 1 - f : f;
+                    const auto p = body_point(here[q], results, q, k, face);
+                    patch.vertices[vertex] = p.position;
+                    for (unsigned int c = 0; c < n_thick_components; ++c)
+                      patch.data(c, vertex) = p.data[c];
+                    ++vertex;
+                  }
+              patches_.push_back(std::move(patch));
+            }
+      }
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
     this->set_flags(flags);

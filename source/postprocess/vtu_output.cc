@@ -381,43 +381,40 @@ namespace Nacre
     const double       rank =
       Utilities::MPI::this_mpi_process(discretization.communicator());
 
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          results.reinit(cell);
-          if (has_mode_)
-            mode_values->reinit(cell);
-          Patch patch;
-          patch.patch_index          = patches_.size();
-          patch.reference_cell       = cell->reference_cell();
-          patch.n_subdivisions       = n;
-          patch.points_are_available = true;
-          patch.data.reinit(n_components + spacedim, points.size());
-          for (unsigned int q = 0; q < points.size(); ++q)
-            {
-              const PointResults here = results.at(q);
-              unsigned int       row  = 0;
-              for (const auto &field : list)
-                for (unsigned int c = 0; c < field.n_components; ++c)
-                  patch.data(row++, q) = field.component(here, c);
-              patch.data(row++, q) = rank;
-              if (has_error_indicators_)
-                patch.data(row++, q) =
-                  error_indicators[cell->active_cell_index()];
-              for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
-                patch.data(row++, q) = mode_values->displacement(q)[c];
-              for (unsigned int c = 0; c < spacedim; ++c)
-                patch.data(row++, q) = results.position(q)[c];
-            }
-          const std::vector<unsigned int> corners =
-            triangles ?
-              std::vector<unsigned int>{0, 1, 2} :
-              std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
-          for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
-            patch.vertices[vertex] = results.position(corners[vertex]);
-          patches_.push_back(std::move(patch));
-        }
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        results.reinit(part);
+        if (has_mode_)
+          mode_values->reinit(part);
+        Patch patch;
+        patch.patch_index          = patches_.size();
+        patch.reference_cell       = part.cell->reference_cell();
+        patch.n_subdivisions       = n;
+        patch.points_are_available = true;
+        patch.data.reinit(n_components + spacedim, points.size());
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            const PointResults here = results.at(q);
+            unsigned int       row  = 0;
+            for (const auto &field : list)
+              for (unsigned int c = 0; c < field.n_components; ++c)
+                patch.data(row++, q) = field.component(here, c);
+            patch.data(row++, q) = rank;
+            if (has_error_indicators_)
+              patch.data(row++, q) = error_indicators[part.index()];
+            for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
+              patch.data(row++, q) = mode_values->displacement(q)[c];
+            for (unsigned int c = 0; c < spacedim; ++c)
+              patch.data(row++, q) = results.position(q)[c];
+          }
+        const std::vector<unsigned int> corners =
+          triangles ?
+            std::vector<unsigned int>{0, 1, 2} :
+            std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
+        for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
+          patch.vertices[vertex] = results.position(corners[vertex]);
+        patches_.push_back(std::move(patch));
+      }
 
     this->set_flags(output_flags());
   }

@@ -50,30 +50,28 @@ namespace Nacre
       std::vector<PartVector> motions(6 * n_parts, shell.owned_vector());
       const auto             &node_dofs = discretization.node_dofs();
       std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            auto coarse =
-              typename Triangulation<dim, spacedim>::cell_iterator(cell);
-            while (coarse->level() > 0)
-              coarse = coarse->parent();
-            const unsigned int part = parts[coarse->index()];
-            cell->get_dof_indices(dofs);
-            const auto nodes = discretization.node_positions(cell);
-            for (unsigned int k = 0; k < dofs.size(); ++k)
-              {
-                const auto i = dofs[node_dofs[k]];
-                if (!discretization.locally_owned_dofs().is_element(i))
-                  continue;
-                const unsigned int c = k % spacedim;
-                const auto         x = (nodes[k / spacedim] - centre) / length;
-                motions[6 * part + c](i) = 1.;
-                for (unsigned int d = 0; d < spacedim; ++d)
-                  motions[6 * part + 3 + d](i) =
-                    cross_product_3d(Point<spacedim>::unit_vector(d), x)[c];
-              }
-          }
+      for (const CellPart &here : discretization.owned_parts())
+        {
+          auto coarse =
+            typename Triangulation<dim, spacedim>::cell_iterator(here.cell);
+          while (coarse->level() > 0)
+            coarse = coarse->parent();
+          const unsigned int part = parts[coarse->index()];
+          discretization.get_dof_indices(here, dofs);
+          const auto nodes = discretization.node_positions(here);
+          for (unsigned int k = 0; k < dofs.size(); ++k)
+            {
+              const auto i = dofs[node_dofs[k]];
+              if (!discretization.locally_owned_dofs().is_element(i))
+                continue;
+              const unsigned int c = k % spacedim;
+              const auto         x = (nodes[k / spacedim] - centre) / length;
+              motions[6 * part + c](i) = 1.;
+              for (unsigned int d = 0; d < spacedim; ++d)
+                motions[6 * part + 3 + d](i) =
+                  cross_product_3d(Point<spacedim>::unit_vector(d), x)[c];
+            }
+        }
       PartVector Mx = shell.owned_vector();
       for (unsigned int k = 0; k < motions.size(); ++k)
         {

@@ -104,7 +104,7 @@ namespace Nacre
     Vector owned(discretization.locally_owned_dofs(),
                  discretization.communicator());
     copy_by_cell(dof_handler_, values_[k], discretization.dof_handler(), owned);
-    discretization.hanging_node_constraints().distribute(owned);
+    discretization.node_constraints().distribute(owned);
     return owned;
   }
 } // namespace Nacre

@@ -194,19 +194,17 @@ namespace Nacre
     const auto &node_dofs = shell.discretization().node_dofs();
     double      largest   = 0.;
     std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const auto &cell :
-         shell.discretization().dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
-            {
-              Tensor<1, spacedim> u;
-              for (unsigned int c = 0; c < spacedim; ++c)
-                u[c] = ghosted(dofs[node_dofs[spacedim * a + c]]);
-              largest = std::max(largest, u.norm());
-            }
-        }
+    for (const CellPart &part : shell.discretization().owned_parts())
+      {
+        shell.discretization().get_dof_indices(part, dofs);
+        for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
+          {
+            Tensor<1, spacedim> u;
+            for (unsigned int c = 0; c < spacedim; ++c)
+              u[c] = ghosted(dofs[node_dofs[spacedim * a + c]]);
+            largest = std::max(largest, u.norm());
+          }
+      }
     ghosted /= Utilities::MPI::max(largest, communicator_);
     return ghosted;
   }

@@ -23,7 +23,7 @@ namespace Nacre
       ShellCellValues           values(discretization, QMidpoint<dim>(), false);
       std::pair<double, double> sum{0., 0.};
       for (const auto &cell :
-           discretization.triangulation().active_cell_iterators())
+           discretization.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
           {
             values.reinit_frames(cell);

@@ -4,6 +4,7 @@
 #ifndef nacre_discretization_discretization_h
 #define nacre_discretization_discretization_h
 
+#include <nacre/discretization/part_extension.h>
 #include <nacre/problem/element.h>
 
 #include <deal.II/base/array_view.h>
@@ -27,6 +28,7 @@
 
 namespace Nacre
 {
+  struct Cuts;
   class Midsurface;
 
   /** A point of the discrete mid-surface, found by Discretization::locate(). */
@@ -34,8 +36,8 @@ namespace Nacre
   {
     /** Whether the cell is this rank's. */
     bool is_mine = false;
-    /** The cell, valid where is_mine. */
-    DoFHandler<dim, spacedim>::active_cell_iterator cell;
+    /** The cell or its part, valid where is_mine. */
+    CellPart part;
     /** Coordinates in the reference cell, valid where is_mine. */
     Point<dim> unit;
     /** Nearest point of the mid-surface (length), valid on all ranks. */
@@ -55,14 +57,27 @@ namespace Nacre
    * applied, so that it is continuous across hanging edges too, and the rigid
    * motions lie in the displacement space if the mapping's degree is at most
    * that of the element.
+   *
+   * Cuts divide cells into parts, each with the whole space of its cell, (C.1)
+   * of doc/cutting.md. Everything that happens on cells happens on the
+   * owned_parts(): without cuts, these are the cells.
    */
   class Discretization
   {
   public:
     /**
      * @param mapping_degree degree of the geometry; 0 means isoparametric,
-     *   which is the only choice for cells other than Lagrange ones
+     *   which is the only choice for cells other than Lagrange ones, and for
+     *   all cells if there are @p cuts
      */
+    Discretization(const Midsurface  &midsurface,
+                   const MPI_Comm     communicator,
+                   const Element     &element,
+                   const unsigned int mapping_degree,
+                   const unsigned int n_refinements,
+                   const Cuts        &cuts);
+
+    /** Without cuts. */
     Discretization(const Midsurface  &midsurface,
                    const MPI_Comm     communicator,
                    const Element     &element,
@@ -104,9 +119,52 @@ namespace Nacre
     const Mapping<dim, spacedim> &
     mapping() const;
 
-    /** The displacement space, FESystem(scalar_fe(), 3). */
+    /**
+     * The displacement space without cuts, FESystem(scalar_fe(), 3). With cuts
+     * its numbers of dofs are not those of get_dof_indices().
+     */
     const DoFHandler<dim, spacedim> &
     dof_handler() const;
+
+    /** @name Cells and their parts */
+    //@{
+    /** Which parts cuts make of the cells, and where these meet. */
+    const CellParts &
+    cell_parts() const
+    {
+      return parts_;
+    }
+
+    /** This rank's cells; of divided ones all parts. */
+    const std::vector<CellPart> &
+    owned_parts() const
+    {
+      return owned_parts_;
+    }
+
+    /** Those, and the parts of ghosts. */
+    std::vector<CellPart>
+    relevant_parts() const;
+
+    /** The dofs of a part, in the order of the element. */
+    void
+    get_dof_indices(const CellPart                       &part,
+                    std::vector<types::global_dof_index> &dofs) const;
+
+    /** One more than the largest CellPart::index(). */
+    unsigned int
+    n_part_indices() const
+    {
+      return parts_.is_empty() ? triangulation_->n_active_cells() :
+                                 parts_.n_indices();
+    }
+
+    types::global_dof_index
+    n_dofs() const
+    {
+      return numbering_->n_dofs();
+    }
+    //@}
 
     /** The scalar element whose nodes carry the displacements. */
     const FiniteElement<dim, spacedim> &
@@ -120,15 +178,17 @@ namespace Nacre
     }
 
     /**
-     * Positions X0 (length) of the nodes of geometry_fe() on an active cell
-     * that this rank owns or has as a ghost: phi0 = sum_b N^b X0^b (18).
+     * Positions X0 (length) of the nodes of geometry_fe() on an active cell or
+     * a part of it that this rank owns or has as a ghost:
+     * phi0 = sum_b N^b X0^b (18).
      */
     ArrayView<const Point<spacedim>>
-    geometry_nodes(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) const
+    geometry_nodes(const CellPart &part) const
     {
+      if (part.data != nullptr && !part.data->nodes.empty())
+        return {part.data->nodes.data(), part.data->nodes.size()};
       const std::size_t n = geometry_to_nodes_.n();
-      return {geometry_nodes_.data() + cell->active_cell_index() * n, n};
+      return {geometry_nodes_.data() + part.cell->active_cell_index() * n, n};
     }
 
     /** The nodes a of the local edge @p face of any cell. */
@@ -151,14 +211,13 @@ namespace Nacre
     const IndexSet &
     locally_relevant_dofs() const;
 
-    /** Hanging nodes only. */
+    /** Nodes that follow others: hanging ones, and those of small parts. */
     const AffineConstraints<double> &
-    hanging_node_constraints() const;
+    node_constraints() const;
 
-    /** Positions (length) of the displacement nodes of @p cell. */
+    /** Positions (length) of the displacement nodes of @p part. */
     std::vector<Point<spacedim>>
-    node_positions(
-      const Triangulation<dim, spacedim>::active_cell_iterator &cell) const;
+    node_positions(const CellPart &part) const;
 
     /**
      * The point of the mid-surface nearest to @p point, in the lowest of the
@@ -213,6 +272,22 @@ namespace Nacre
     void
     store_geometry_nodes();
 
+    using InCell = std::function<
+      Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
+                      const Point<dim> &)>;
+
+    /** Divide the cells. @param chart empty: the surface has none */
+    void
+    cut(const Cuts &cuts, const InCell &chart);
+
+    /** Number the dofs of all parts. */
+    void
+    number_dofs();
+
+    /** Set node_constraints_ of a mesh with cuts. */
+    void
+    constrain_parts();
+
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation_;
 
     const Element                                       element_;
@@ -222,9 +297,11 @@ namespace Nacre
     DoFHandler<dim, spacedim>                           dof_handler_;
     std::vector<unsigned int>                           node_dofs_;
 
-    IndexSet                  locally_owned_dofs_;
-    IndexSet                  locally_relevant_dofs_;
-    AffineConstraints<double> hanging_node_constraints_;
+    CellParts                      parts_;
+    double                         smallest_part_ = 0.;
+    std::unique_ptr<PartNumbering> numbering_;
+    AffineConstraints<double>      node_constraints_;
+    std::vector<CellPart>          owned_parts_;
 
     FESystem<dim, spacedim>                    geometry_fe_;
     DoFHandler<dim, spacedim>                  geometry_dof_handler_;

@@ -28,27 +28,55 @@ namespace Nacre
    * strain at the point q of the local dof i.
    *
    * Tied membrane strains (against membrane locking) are interpolated from the
-   * samples of a MembraneTying.
+   * samples of a MembraneTying. On parts of divided cells, the L2 projection
+   * over the part onto the same polynomials takes the place of interpolation,
+   * which would lose consistency there.
    */
   class ShellCellValues
   {
   public:
+    /** What the points are. */
+    enum class Points
+    {
+      /** A rule of whole cells; parts have a rule of their own. */
+      rule,
+      /** Points where values are wanted, on any part of the cell. */
+      given
+    };
+
     /**
-     * @param quadrature points in the reference cell, any
+     * @param quadrature points in the reference cell
      * @param tied whether membrane strains are tied
      */
     ShellCellValues(const Discretization  &discretization,
                     const Quadrature<dim> &quadrature,
-                    const bool             tied);
+                    const bool             tied,
+                    const Points           points = Points::rule);
 
+    /**
+     * Whether membrane strains are projected on parts of divided cells; tied
+     * ones are unless this says otherwise.
+     */
+    void
+    project_on_parts(const bool projects)
+    {
+      projects_ = projects;
+    }
 
     /** Frames and rows of the linear strains; of tying frames a_cov only. */
     void
-    reinit(const Triangulation<dim, spacedim>::cell_iterator &cell);
+    reinit(const CellPart &part);
 
     /** Frames only. */
     void
-    reinit_frames(const Triangulation<dim, spacedim>::cell_iterator &cell);
+    reinit_frames(const CellPart &part);
+
+    /** Whether the last part is one of a divided cell. */
+    bool
+    is_cut() const
+    {
+      return of_part_.has_value();
+    }
 
     unsigned int
     n_points() const
@@ -60,6 +88,13 @@ namespace Nacre
     n_dofs() const
     {
       return discretization_.node_dofs().size();
+    }
+
+    /** The points in the reference cell, and their weights. */
+    const Quadrature<dim> &
+    quadrature() const
+    {
+      return tables().quadrature;
     }
 
     const SurfaceFrame<> &
@@ -79,13 +114,13 @@ namespace Nacre
     double
     JxW(const unsigned int q) const
     {
-      return frames_[q].j0 * quadrature_.weight(q);
+      return frames_[q].j0 * tables().quadrature.weight(q);
     }
 
     const ShapeTable &
     shapes() const
     {
-      return shapes_;
+      return tables().shapes;
     }
 
     /** Local dof of the component @p c of the node @p a. */
@@ -99,21 +134,21 @@ namespace Nacre
     const MembraneTying &
     tying() const
     {
-      return tying_;
+      return tables().tying;
     }
 
     /** Shape functions at the tying points. */
     const ShapeTable &
     tying_shapes() const
     {
-      return tying_shapes_;
+      return tables().tying_shapes;
     }
 
     /** Frame at the tying point @p k; no second derivatives if tied. */
     const SurfaceFrame<> &
     tying_frame(const unsigned int k) const
     {
-      return tied_ ? tying_frames_[k] : frames_[k];
+      return tables().has_tying_points ? tying_frames_[k] : frames_[k];
     }
 
     /** Rows of the membrane strain, (3) or its tied interpolation. */
@@ -131,9 +166,41 @@ namespace Nacre
     }
 
   private:
+    /** What the reference cell alone determines. */
+    struct Tables
+    {
+      Tables(const Discretization  &discretization,
+             const Quadrature<dim> &quadrature,
+             const MembraneTying   &tying,
+             const bool             has_tying_points);
+
+      Quadrature<dim> quadrature;
+      MembraneTying   tying;
+      /** Whether strains are sampled at other points. */
+      bool          has_tying_points;
+      ShapeTable    shapes;
+      ShapeTable    tying_shapes;
+      GeometryTable geometry;
+      GeometryTable tying_geometry;
+    };
+
+    const Tables &
+    tables() const
+    {
+      return of_part_ ? *of_part_ : of_cell_;
+    }
+
+    /** Tables of a part of a divided cell, or of the whole cell. */
+    void
+    set_tables(const CellPart &part);
+
+    /** Room for the points of the tables. */
+    void
+    resize();
+
     /** Frames at the points, and the geometry at the tying points. */
     void
-    evaluate(const Triangulation<dim, spacedim>::cell_iterator &cell);
+    evaluate(const CellPart &part);
 
     void
     fill_membrane_rows();
@@ -145,13 +212,11 @@ namespace Nacre
     fill_bending_rows();
 
     const Discretization &discretization_;
-    const Quadrature<dim> quadrature_;
     const bool            tied_;
-    const MembraneTying   tying_;
-    const ShapeTable      shapes_;
-    const ShapeTable      tying_shapes_;
-    const GeometryTable   geometry_table_;
-    const GeometryTable   tying_geometry_table_;
+    const Points          points_;
+    bool                  projects_;
+    const Tables          of_cell_;
+    std::optional<Tables> of_part_;
 
     GeometryTable::Values geometry_;
     GeometryTable::Values tying_geometry_;
@@ -183,7 +248,10 @@ namespace Nacre
 
     using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
-    /** The edge between two cells, arguments as mesh_loop's face worker. */
+    /**
+     * The edge between two cells without pieces, arguments as mesh_loop's face
+     * worker.
+     */
     void
     reinit(const cell_iterator &cell,
            const unsigned int   face,
@@ -192,19 +260,26 @@ namespace Nacre
            const unsigned int   neighbor_face,
            const unsigned int   neighbor_subface);
 
-    /** One edge of one cell. */
+    /** One edge of one cell without pieces. */
     void
     reinit(const cell_iterator &cell, const unsigned int face);
 
+    /** A piece of an edge, with one or two sides. */
+    void
+    reinit(const EdgePiece &piece);
+
     /**
-     * The edge that @p cell shares with an active neighbour of its size or
-     * coarser. Returns false, without such an edge, on the boundary and where
-     * finer neighbours meet the edge from their side. Over all cells that a
-     * rank owns, all ranks together meet every interior edge, hanging ones
-     * included.
+     * Call @p use(*this) for each piece of the edge that @p cell shares with an
+     * active neighbour of its size or coarser; never on the boundary and
+     * where finer neighbours meet the edge from their side. Over all cells
+     * that a rank owns, all ranks together meet every interior edge, hanging
+     * ones included.
      */
-    bool
-    reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);
+    template <typename Function>
+    void
+    for_pieces_to_neighbor(const cell_iterator &cell,
+                           const unsigned int   face,
+                           const Function      &use);
 
     unsigned int
     n_sides() const
@@ -269,8 +344,21 @@ namespace Nacre
     const ShapeTable &
     shapes(const unsigned int side) const
     {
-      const auto [face, kind] = table_of_side_[side];
-      return tables_[face][kind]->shapes;
+      return table_of(side).shapes;
+    }
+
+    /** Its cell's face that a side lies on. */
+    unsigned int
+    face(const unsigned int side) const
+    {
+      return table_of_side_[side].first;
+    }
+
+    /** The part of a side. */
+    const CellPart &
+    part(const unsigned int side) const
+    {
+      return parts_[side];
     }
 
     /**
@@ -348,20 +436,44 @@ namespace Nacre
     void
     make_directions();
 
+    /** Of tables_; this one stands for piece_tables_. */
+    static constexpr unsigned int piece_kind = 4;
+
     /** The table, made when it is first asked for. */
     const Table &
     table(const unsigned int face, const unsigned int kind);
 
-    /** Frames, conormals and shape functions of one side. */
+    const Table &
+    table_of(const unsigned int side) const
+    {
+      const auto [face, kind] = table_of_side_[side];
+      return kind == piece_kind ? *piece_tables_[side] : *tables_[face][kind];
+    }
+
+    /** The part of a side, and the table of the edge or its half. */
     void
-    update_side(const unsigned int   side,
-                const cell_iterator &cell,
-                const unsigned int   face,
-                const unsigned int   subface);
+    update_side(const unsigned int side,
+                const CellPart    &part,
+                const unsigned int face,
+                const unsigned int subface);
+
+    /** The part of a side, and a table of the interval. */
+    void
+    update_side(const unsigned int side, const EdgePiece::Side &piece);
+
+    /**
+     * Frames, conormals and lengths at the points of the side's table.
+     * @param share of the edge
+     */
+    void
+    evaluate(const unsigned int side, const double share);
+
+    bool
+    reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);
 
     /** Number the dofs of both sides, shared ones once. */
     void
-    join_dofs(const std::array<cell_iterator, 2> &cells);
+    join_dofs();
 
     const Discretization &discretization_;
     const Quadrature<1>   quadrature_;
@@ -371,6 +483,8 @@ namespace Nacre
     std::vector<Tensor<1, dim>> directions_;
     /** Whether direction x normal points outward (+1) or inward (-1). */
     std::vector<double> outward_;
+
+    std::array<std::optional<Table>, 2> piece_tables_;
 
     unsigned int n_sides_ = 0;
     /** Face and kind of each side's table. */
@@ -383,7 +497,7 @@ namespace Nacre
     std::array<std::vector<unsigned int>, 2>             joint_dofs_;
     std::vector<types::global_dof_index>                 dof_indices_;
     std::array<std::vector<types::global_dof_index>, 2>  cell_dofs_;
-    std::array<cell_iterator, 2>                         cells_;
+    std::array<CellPart, 2>                              parts_;
     /** @name For tied strains only; tyings by face and kind of the table */
     //@{
     mutable std::map<std::pair<unsigned int, unsigned int>, MembraneTying>
@@ -394,6 +508,23 @@ namespace Nacre
     /** Index 3 a + c of each local dof. */
     std::vector<unsigned int> local_to_node_;
   };
+
+  template <typename Function>
+  void
+  ShellEdgeValues::for_pieces_to_neighbor(const cell_iterator &cell,
+                                          const unsigned int   face,
+                                          const Function      &use)
+  {
+    const CellParts &parts = discretization_.cell_parts();
+    if (parts.has_pieces(cell, face) && !cell->at_boundary(face))
+      for (const EdgePiece &piece : parts.pieces_between(cell, face))
+        {
+          reinit(piece);
+          use(*this);
+        }
+    else if (reinit_to_neighbor(cell, face))
+      use(*this);
+  }
 } // namespace Nacre
 
 #endif

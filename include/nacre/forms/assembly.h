@@ -139,6 +139,7 @@ namespace Nacre
   private:
     class Worker;
     struct FaceCopy;
+    struct PartCopy;
     struct CopyData;
 
     using Copier = std::function<void(const CopyData &)>;

@@ -43,7 +43,7 @@ namespace Nacre
 
   /**
    * f = min(1, h^2 / |K|) of MembraneStrain::reduced on the cell of
-   * @p values, h the mean thickness.
+   * @p values, h the mean thickness; 1 on parts of divided cells.
    */
   double
   full_integration_share(const ShellCellValues &values,

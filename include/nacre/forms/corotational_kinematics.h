@@ -41,9 +41,9 @@ namespace Nacre
     clone() const override;
 
     void
-    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                   const Vector<double>                              &u,
-                   LocalTerms &terms) override;
+    add_cell_terms(const CellPart       &part,
+                   const Vector<double> &u,
+                   LocalTerms           &terms) override;
 
     const ShellCellValues &
     cell_values() const override
@@ -52,10 +52,9 @@ namespace Nacre
     }
 
     void
-    reinit_cell_values(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) override
+    reinit_cell_values(const CellPart &part) override
     {
-      full_points_.values.reinit_frames(cell);
+      full_points_.values.reinit_frames(part);
     }
 
     void
@@ -90,7 +89,7 @@ namespace Nacre
      * step in place of the second B*.
      */
     void
-    add_cell_step_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+    add_cell_step_terms(const CellPart       &part,
                         const Vector<double> &u_start,
                         const Vector<double> &u_end,
                         LocalTerms           &terms) override;
@@ -120,6 +119,10 @@ namespace Nacre
                  const Quadrature<dim> &quadrature,
                  const bool             tied);
 
+      /** Set the numbers of rows; they depend on the tying points. */
+      void
+      number_membrane_rows();
+
       ShellCellValues values;
       CellStiffness   stiffness;
       /** M of CorotationalMembrane. */
@@ -134,8 +137,7 @@ namespace Nacre
 
     /** The terms at u_; if in_step_, of the step of which u_ is the mean. */
     void
-    add_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
-             LocalTerms                                        &terms);
+    add_cell(const CellPart &part, LocalTerms &terms);
 
     /** Strains and stresses of membrane and bending, unless in_step_. */
     void

@@ -41,15 +41,13 @@ namespace Nacre
                 const Quadrature<dim>       &quadrature,
                 const std::optional<double> &eta);
 
-    using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
-
-    /** eta^e (1/length) of the edge between two cells. */
+    /** eta^e (1/length) of the edge between two cells or parts. */
     double
-    interior(const cell_iterator &cell, const cell_iterator &neighbor) const;
+    interior(const CellPart &part, const CellPart &neighbor) const;
 
     /** eta^e (1/length) of a boundary edge, without the factor 2. */
     double
-    boundary(const cell_iterator &cell) const;
+    boundary(const CellPart &part) const;
 
     /**
      * The largest eta_K over all edges, the bound that makes the form
@@ -68,16 +66,16 @@ namespace Nacre
       return eta_ ? *eta_ : 2. * bound_;
     }
 
-    /** lambda_K (1/length) of a cell that this rank owns or has as a ghost. */
+    /** lambda_K (1/length) of a part that this rank owns or has as a ghost. */
     double
-    eigenvalue(const cell_iterator &cell) const
+    eigenvalue(const CellPart &part) const
     {
-      return eigenvalues_[cell->active_cell_index()];
+      return eigenvalues_[part.index()];
     }
 
   private:
     const std::optional<double> eta_;
-    /** By active cell index: |A| / |dA| (length), and lambda_K. */
+    /** By CellPart::index(): |A| / |dA| (length), and lambda_K. */
     std::vector<double> sizes_;
     std::vector<double> eigenvalues_;
     double              bound_ = 0.;

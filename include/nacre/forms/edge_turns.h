@@ -27,18 +27,16 @@ namespace Nacre
    *
    * Throws where an expression isn't finite, maybe on some ranks only; does not
    * communicate.
-   * @param edge the boundary edge @p face of @p cell
+   * @param edge a boundary edge
    * @param load_factor factor of the prescribed displacements over the time
    * @return Q at the points of the edge
    */
   std::vector<Tensor<2, spacedim>>
-  follow_edge_turns(const Discretization &discretization,
-                    const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
-                    const unsigned int                                     face,
-                    const ShellEdgeValues                                 &edge,
-                    const EdgeConditions &conditions,
-                    const Expression     &load_factor,
-                    const double          time);
+  follow_edge_turns(const Discretization  &discretization,
+                    const ShellEdgeValues &edge,
+                    const EdgeConditions  &conditions,
+                    const Expression      &load_factor,
+                    const double           time);
 } // namespace Nacre
 
 #endif

@@ -48,23 +48,21 @@ namespace Nacre
 
     /** Frames of @p cell, without any terms. */
     void
-    reinit_frames(const Triangulation<dim, spacedim>::cell_iterator &cell)
+    reinit_frames(const CellPart &part)
     {
-      full_points_.values.reinit_frames(cell);
+      full_points_.values.reinit_frames(part);
     }
 
     /** Add the terms at the displacement @p u; zero if empty. */
     void
-    add(const Triangulation<dim, spacedim>::cell_iterator &cell,
-        const Vector<double>                              &u,
-        LocalTerms                                        &terms);
+    add(const CellPart &part, const Vector<double> &u, LocalTerms &terms);
 
     /** Kinematics::add_cell_step_terms(). */
     void
-    add_step(const Triangulation<dim, spacedim>::cell_iterator &cell,
-             const Vector<double>                              &u_start,
-             const Vector<double>                              &u_end,
-             LocalTerms                                        &terms);
+    add_step(const CellPart       &part,
+             const Vector<double> &u_start,
+             const Vector<double> &u_end,
+             LocalTerms           &terms);
 
   private:
     /** The points of one rule. */
@@ -90,9 +88,7 @@ namespace Nacre
 
     /** What both do at the points of both rules. */
     void
-    add_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
-              const bool                                         in_step,
-              LocalTerms                                        &terms);
+    add_terms(const CellPart &part, const bool in_step, LocalTerms &terms);
 
     void
     add_tangent(const CellPoints &points, LocalTerms &terms);

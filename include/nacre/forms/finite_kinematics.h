@@ -44,11 +44,11 @@ namespace Nacre
     }
 
     void
-    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                   const Vector<double>                              &u,
-                   LocalTerms &terms) override
+    add_cell_terms(const CellPart       &part,
+                   const Vector<double> &u,
+                   LocalTerms           &terms) override
     {
-      cell_terms_.add(cell, u, terms);
+      cell_terms_.add(part, u, terms);
     }
 
     const ShellCellValues &
@@ -58,10 +58,9 @@ namespace Nacre
     }
 
     void
-    reinit_cell_values(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) override
+    reinit_cell_values(const CellPart &part) override
     {
-      cell_terms_.reinit_frames(cell);
+      cell_terms_.reinit_frames(part);
     }
 
     void
@@ -103,12 +102,12 @@ namespace Nacre
     }
 
     void
-    add_cell_step_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+    add_cell_step_terms(const CellPart       &part,
                         const Vector<double> &u_start,
                         const Vector<double> &u_end,
                         LocalTerms           &terms) override
     {
-      cell_terms_.add_step(cell, u_start, u_end, terms);
+      cell_terms_.add_step(part, u_start, u_end, terms);
     }
 
     void

@@ -95,9 +95,9 @@ namespace Nacre
      * those of the cell.
      */
     virtual void
-    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                   const Vector<double>                              &u,
-                   LocalTerms &terms) = 0;
+    add_cell_terms(const CellPart       &part,
+                   const Vector<double> &u,
+                   LocalTerms           &terms) = 0;
 
     /** Frames at the full rule of the last cell. */
     virtual const ShellCellValues &
@@ -105,8 +105,7 @@ namespace Nacre
 
     /** Make @p cell the last cell, without any terms. */
     virtual void
-    reinit_cell_values(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) = 0;
+    reinit_cell_values(const CellPart &part) = 0;
 
     /**
      * Terms of an interior edge, at the displacement @p u of the edge's dofs.
@@ -166,7 +165,7 @@ namespace Nacre
      */
     //@{
     virtual void
-    add_cell_step_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
+    add_cell_step_terms(const CellPart       &part,
                         const Vector<double> &u_start,
                         const Vector<double> &u_end,
                         LocalTerms           &terms);

@@ -38,9 +38,9 @@ namespace Nacre
     }
 
     void
-    add_cell_terms(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                   const Vector<double>                              &u,
-                   LocalTerms &terms) override;
+    add_cell_terms(const CellPart       &part,
+                   const Vector<double> &u,
+                   LocalTerms           &terms) override;
 
     const ShellCellValues &
     cell_values() const override
@@ -49,10 +49,9 @@ namespace Nacre
     }
 
     void
-    reinit_cell_values(
-      const Triangulation<dim, spacedim>::cell_iterator &cell) override
+    reinit_cell_values(const CellPart &part) override
     {
-      full_values_.reinit_frames(cell);
+      full_values_.reinit_frames(part);
     }
 
     void

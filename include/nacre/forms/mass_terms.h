@@ -32,11 +32,11 @@ namespace Nacre
     /** A mass of 1 per area. */
     explicit MassTerms(const Discretization &discretization);
 
-    /** M_ab of the nodes of one of this rank's cells (mass). */
+    /** M_ab of the nodes of one of this rank's parts (mass). */
     const FullMatrix<double> &
-    cell_matrix(const Triangulation<dim, spacedim>::cell_iterator &cell) const
+    cell_matrix(const CellPart &part) const
     {
-      return cell_matrices_[cell->active_cell_index()];
+      return cell_matrices_[part.index()];
     }
 
     /**
@@ -44,12 +44,12 @@ namespace Nacre
      * @p residual and, if it isn't null, @p factor M to @p tangent.
      */
     void
-    add_on_cell(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                const std::vector<types::global_dof_index>        &dofs,
-                const Vector                                      &w,
-                const double                                       factor,
-                dealii::Vector<double>                            &residual,
-                FullMatrix<double> *tangent) const;
+    add_on_cell(const CellPart                             &part,
+                const std::vector<types::global_dof_index> &dofs,
+                const Vector                               &w,
+                const double                                factor,
+                dealii::Vector<double>                     &residual,
+                FullMatrix<double>                         *tangent) const;
 
     /** M v of a ghosted vector, without constraints. */
     void

@@ -84,13 +84,10 @@ namespace Nacre
     largest_gap(const Vector &u, const PrescribedRotations &rotations) const;
 
   private:
-    using Cell = DoFHandler<dim, spacedim>::active_cell_iterator;
-
     /** An edge whose rotation is prescribed, and its values. */
     struct Edge
     {
-      const Cell            &cell;
-      const unsigned int     face;
+      const EdgePiece       &piece;
       const EdgeConditions  &conditions;
       const ShellEdgeValues &values;
 
@@ -98,7 +95,13 @@ namespace Nacre
       std::pair<unsigned int, unsigned int>
       place() const
       {
-        return {cell->active_cell_index(), face};
+        return piece.place();
+      }
+
+      const CellPart &
+      part() const
+      {
+        return piece.sides[0].part;
       }
 
       /** Values of @p u at the edge's dofs. */
@@ -106,7 +109,7 @@ namespace Nacre
       extract(const Vector &u) const;
     };
 
-    /** Call @p work for the edges of this rank's cells. */
+    /** Call @p work for the edges of this rank's parts. */
     void
     for_each(const std::function<void(const Edge &)> &work) const;
 

@@ -33,25 +33,23 @@ namespace Nacre
     }
   };
 
-  /** A cell as terms see it. */
+  /** A cell, or a part of one, as terms see it. */
   class TermCell
   {
   public:
-    using Cell = DoFHandler<dim, spacedim>::active_cell_iterator;
-
-    TermCell(const Cell                                 &cell,
+    TermCell(const CellPart                             &part,
              const std::vector<types::global_dof_index> &dofs,
              const LocalState                           &state,
              const ShellActions                         &actions,
              Kinematics                                 &kinematics)
-      : cell(cell)
+      : part(part)
       , dofs(dofs)
       , state(state)
       , actions(actions)
       , kinematics_(kinematics)
     {}
 
-    const Cell                                 &cell;
+    const CellPart                             &part;
     const std::vector<types::global_dof_index> &dofs;
     const LocalState                           &state;
     const ShellActions                         &actions;
@@ -61,7 +59,7 @@ namespace Nacre
     values()
     {
       if (!has_values_)
-        kinematics_.reinit_cell_values(cell);
+        kinematics_.reinit_cell_values(part);
       has_values_ = true;
       return kinematics_.cell_values();
     }
@@ -90,7 +88,7 @@ namespace Nacre
     Kinematics         &kinematics;
     /** Of a boundary edge. */
     types::boundary_id boundary_id;
-    /** A boundary edge's cell and face: the key of PrescribedRotations. */
+    /** EdgePiece::place() of a boundary edge: the key of PrescribedRotations. */
     std::pair<unsigned int, unsigned int> place;
   };
 

@@ -122,7 +122,7 @@ namespace Nacre
                 const bool             with_shear);
 
     void
-    reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell);
+    reinit(const CellPart &part);
 
     Point<spacedim>
     position(const unsigned int q) const

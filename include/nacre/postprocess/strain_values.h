@@ -28,7 +28,7 @@ namespace Nacre
     StrainValues(const ShellState &state, const Quadrature<dim> &points);
 
     void
-    reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell);
+    reinit(const CellPart &part);
 
     /** Frames and positions of the undeformed surface. */
     const ShellCellValues &
@@ -84,7 +84,9 @@ namespace Nacre
     fill_finite_strains();
 
     const bool                           is_linear_;
+    const Discretization                &discretization_;
     const TrilinosWrappers::MPI::Vector &displacement_;
+    std::vector<types::global_dof_index> dofs_;
     ShellCellValues                      values_;
     Vector<double>                       u_;
     /** [3 point + component] */

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_part_extension_h
+#define nacre_discretization_part_extension_h
+
+#include <nacre/discretization/part_numbering.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * Small parts follow larger neighbours. A part below a fraction of its cell
+   * is bad; its root is a good part, reached by the longest pieces. A node that
+   * no good part holds follows the root's polynomial,
+   *
+   *     u_s = sum_a N_a^root(xi_root(X_s)) u_a,
+   *
+   * xi_root the point of the root's continued geometry nearest to the node
+   * (C.3). So does its position, so that rigid motions stay in the space.
+   * Badia, Verdugo, Martin (2018) call it aggregation.
+   */
+  class PartExtension
+  {
+  public:
+    /** Collective; sets PartData::nodes of parts that have such nodes. */
+    PartExtension(
+      const DoFHandler<dim, spacedim>    &dof_handler,
+      const FiniteElement<dim, spacedim> &scalar_fe,
+      const std::vector<unsigned int>    &node_dofs,
+      const double                        smallest_part,
+      const std::function<std::vector<Point<spacedim>>(const CellPart &)>
+                          &nodes_of_cell,
+      const PartNumbering &numbering,
+      CellParts           &parts);
+
+    /** Add the lines of this rank's cells. */
+    void
+    add_to(AffineConstraints<double> &constraints) const;
+
+    unsigned int
+    n_nodes() const
+    {
+      return lines_.size();
+    }
+
+  private:
+    using Dof = types::global_dof_index;
+
+    /** The good part that a part follows. */
+    struct Root
+    {
+      bool                         is_known = false;
+      CellId                       cell;
+      unsigned int                 part = 0;
+      std::vector<Dof>             dofs;
+      std::vector<Point<spacedim>> nodes;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &is_known &cell &part &dofs &nodes;
+      }
+    };
+
+    /** A node that follows: its dofs, and weights of the root's nodes. */
+    struct Line
+    {
+      std::array<Dof, spacedim>              dofs;
+      std::vector<std::array<Dof, spacedim>> masters;
+      std::vector<double>                    weights;
+    };
+
+    /** The roots of all parts, by CellPart::index(). */
+    void
+    find_roots();
+
+    /** One round of asking neighbours; returns whether anything changed. */
+    bool
+    ask_neighbors();
+
+    void
+    exchange_roots();
+
+    void
+    make_lines(const PartNumbering &numbering);
+
+    void
+    exchange_nodes();
+
+    bool
+    is_good(const PartData &part) const
+    {
+      return part.fraction >= smallest_part_;
+    }
+
+    const DoFHandler<dim, spacedim>    &dof_handler_;
+    const FiniteElement<dim, spacedim> &scalar_fe_;
+    const std::vector<unsigned int>    &node_dofs_;
+    const double                        smallest_part_;
+    const std::function<std::vector<Point<spacedim>>(const CellPart &)>
+                     &nodes_of_cell_;
+    CellParts        &parts_;
+    std::vector<Root> roots_;
+    std::vector<Line> lines_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_part_numbering_h
+#define nacre_discretization_part_numbering_h
+
+#include <nacre/discretization/cell_parts.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <map>
+#include <vector>
+
+namespace Nacre
+{
+  /** A node of a part of a touched cell. */
+  struct PartNode
+  {
+    CellPart::Cell cell;
+    unsigned int   part;
+    unsigned int   node;
+  };
+
+  /**
+   * The numbers of the dofs of parts. Nodes of two parts are one node exactly
+   * if the parts share a piece of an edge that holds the node, directly or by
+   * other parts; so a node has as many copies as there are sides around it:
+   * one ahead of a tip, two at a cut, four at a crossing.
+   *
+   * The first copy keeps the place of the DoFHandler's dofs in the range of
+   * their owner, whose further copies follow at the end of its range. A copy
+   * belongs to the rank of the lowest of its cells, the first one to the rank
+   * that has the DoFHandler's dofs.
+   */
+  class PartNumbering
+  {
+  public:
+    /**
+     * Without cuts: the numbers of @p dof_handler. With cuts it sets
+     * PartData::dofs; collective.
+     * @param node_dofs Discretization::node_dofs()
+     */
+    PartNumbering(const DoFHandler<dim, spacedim>              &dof_handler,
+                  const std::vector<std::vector<unsigned int>> &face_nodes,
+                  const std::vector<unsigned int>              &node_dofs,
+                  CellParts                                    &parts);
+
+    /** All parts that hold a copy, of nodes of this rank's cut cells. */
+    using Copies = std::vector<std::vector<PartNode>>;
+
+    const Copies &
+    copies() const
+    {
+      return copies_;
+    }
+
+    types::global_dof_index
+    n_dofs() const
+    {
+      return new_starts_.back();
+    }
+
+    const IndexSet &
+    locally_owned_dofs() const
+    {
+      return locally_owned_dofs_;
+    }
+
+    /** Those of this rank's cells and ghosts, and those of the rank. */
+    const IndexSet &
+    locally_relevant_dofs() const
+    {
+      return locally_relevant_dofs_;
+    }
+
+    /** The number of a dof of the DoFHandler that keeps its place. */
+    types::global_dof_index
+    number_of(const types::global_dof_index dof) const;
+
+  private:
+    using Dof = types::global_dof_index;
+
+    struct Copy;
+
+    /** The copies of each node of cut cells, by the node's first dof. */
+    std::map<Dof, std::vector<Copy>>
+    find_copies(const CellParts &parts) const;
+
+    /** Numbers of the copies that this rank owns; adds to n_extra_. */
+    void
+    number_copies(std::map<Dof, std::vector<Copy>> &copies);
+
+    void
+    set_dofs(std::map<Dof, std::vector<Copy>> &copies, CellParts &parts);
+
+    void
+    exchange(CellParts &parts) const;
+
+    void
+    make_index_sets(const CellParts &parts);
+
+    const DoFHandler<dim, spacedim>              &dof_handler_;
+    const std::vector<std::vector<unsigned int>> &face_nodes_;
+    const std::vector<unsigned int>              &node_dofs_;
+    unsigned int                                  n_nodes_;
+    /** First dofs of all ranks, and the end: the DoFHandler's and ours. */
+    std::vector<Dof> old_starts_;
+    std::vector<Dof> new_starts_;
+    IndexSet         locally_owned_dofs_;
+    IndexSet         locally_relevant_dofs_;
+    Copies           copies_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/cell_parts.h>
+#include <nacre/discretization/cut_trace.h>
+
+#include <algorithm>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Interval = std::array<double, 2>;
+
+    /** Shorter intervals of an edge, as a fraction of it, are round-off. */
+    constexpr double shortest_piece = 1e-9;
+
+    /** What is left of @p interval without @p opened. */
+    std::vector<Interval>
+    without(const Interval &interval, const std::vector<Interval> &opened)
+    {
+      std::vector<Interval> rest{interval};
+      for (const Interval &gap : opened)
+        {
+          std::vector<Interval> next;
+          for (const Interval &part : rest)
+            for (const Interval &side :
+                 {Interval{{part[0], std::min(part[1], gap[0])}},
+                  Interval{{std::max(part[0], gap[1]), part[1]}}})
+              if (side[1] - side[0] > shortest_piece)
+                next.push_back(side);
+          rest = next;
+        }
+      return rest;
+    }
+
+    /** The intervals of a part on a face of its cell. */
+    std::vector<Interval>
+    intervals_of(const PartData &part, const unsigned int face)
+    {
+      return part.polygon ? part.polygon->intervals(face) :
+                            std::vector<Interval>{{{0., 1.}}};
+    }
+
+    /** Index of the vertex at the beginning of the face's coordinate. */
+    unsigned int
+    first_vertex(const CellPart::Cell &cell, const unsigned int face)
+    {
+      return cell->vertex_index(
+        cell->reference_cell().face_to_cell_vertices(face, 0, 1));
+    }
+
+    Interval
+    reversed(const Interval &interval)
+    {
+      return {{1. - interval[1], 1. - interval[0]}};
+    }
+  } // namespace
+
+  CellParts::CellParts(const DoFHandler<dim, spacedim> &dof_handler,
+                       const CutTrace                  &trace)
+  {
+    const auto &mesh = dof_handler.get_triangulation();
+    n_indices_       = mesh.n_active_cells();
+    entry_of_cell_.assign(n_indices_, numbers::invalid_unsigned_int);
+    const auto is_cut_by_trace = [&](const Cell &cell) {
+      const auto k = cell->active_cell_index();
+      if (!trace.chains(k).empty())
+        return true;
+      for (const auto face : cell->face_indices())
+        if (!trace.opened(k, face).empty())
+          return true;
+      return false;
+    };
+    std::vector<bool> vertex_is_cut(mesh.n_vertices(), false);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial() && is_cut_by_trace(cell))
+        for (const auto v : cell->vertex_indices())
+          vertex_is_cut[cell->vertex_index(v)] = true;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const auto v : cell->vertex_indices())
+          if (vertex_is_cut[cell->vertex_index(v)])
+            {
+              make_entry(cell, trace);
+              break;
+            }
+  }
+
+  void
+  CellParts::make_entry(const Cell &cell, const CutTrace &trace)
+  {
+    const unsigned int k    = cell->active_cell_index();
+    const auto         kind = cell->reference_cell();
+    entry_of_cell_[k]       = entries_.size();
+    touched_cells_.push_back(cell);
+    entries_.emplace_back();
+    Entry &entry = entries_.back();
+    for (const auto face : cell->face_indices())
+      {
+        entry.opened.push_back(trace.opened(k, face));
+        entry.is_cut |= !entry.opened.back().empty();
+      }
+    const auto polygons = divide(kind, trace.chains(k));
+    entry.is_cut |= polygons.size() > 1;
+    entry.parts.resize(polygons.size());
+    for (unsigned int i = 0; i < polygons.size(); ++i)
+      {
+        PartData &part = entry.parts[i];
+        part.number    = i;
+        part.index     = (i == 0 ? k : n_indices_++);
+        if (polygons.size() > 1)
+          {
+            part.polygon  = polygons[i];
+            part.fraction = polygons[i].area() / kind.volume();
+          }
+      }
+  }
+
+  void
+  CellParts::touch(const Cell &cell)
+  {
+    if (is_touched(cell))
+      return;
+    const unsigned int k = cell->active_cell_index();
+    entry_of_cell_[k]    = entries_.size();
+    touched_cells_.push_back(cell);
+    entries_.emplace_back();
+    entries_.back().opened.resize(cell->n_faces());
+    entries_.back().parts.resize(1);
+    entries_.back().parts[0].index = k;
+  }
+
+  std::vector<EdgePiece>
+  CellParts::pieces_between(const Cell &cell, const unsigned int face) const
+  {
+    const Cell         neighbor = cell->neighbor(face);
+    const unsigned int back     = cell->neighbor_of_neighbor(face);
+    const bool turns = first_vertex(cell, face) != first_vertex(neighbor, back);
+    const auto &opened =
+      entries_[entry_of_cell_[cell->active_cell_index()]].opened[face];
+    std::vector<EdgePiece> pieces;
+    for (unsigned int i = 0; i < n_parts(cell); ++i)
+      for (unsigned int j = 0; j < n_parts(neighbor); ++j)
+        for (const auto &here : intervals_of(parts(cell)[i], face))
+          for (const auto &own : intervals_of(parts(neighbor)[j], back))
+            {
+              const Interval there = turns ? reversed(own) : own;
+              const Interval both{
+                {std::max(here[0], there[0]), std::min(here[1], there[1])}};
+              if (both[1] - both[0] <= shortest_piece)
+                continue;
+              for (const auto &meeting : without(both, opened))
+                {
+                  EdgePiece piece;
+                  piece.n_sides  = 2;
+                  piece.number   = pieces.size();
+                  piece.sides[0] = {part(cell, i), face, meeting};
+                  piece.sides[1] = {part(neighbor, j), back, meeting};
+                  if (turns)
+                    piece.sides[1].interval = {
+                      {1. - meeting[0], 1. - meeting[1]}};
+                  pieces.push_back(piece);
+                }
+            }
+    return pieces;
+  }
+
+  std::vector<EdgePiece>
+  CellParts::pieces_of(const CellPart &part, const unsigned int face) const
+  {
+    std::vector<EdgePiece> pieces;
+    const auto             intervals = part.data != nullptr ?
+                                         intervals_of(*part.data, face) :
+                                         std::vector<Interval>{{{0., 1.}}};
+    for (const auto &interval : intervals)
+      {
+        EdgePiece piece;
+        piece.number   = pieces.size();
+        piece.sides[0] = {part, face, interval};
+        pieces.push_back(piece);
+      }
+    return pieces;
+  }
+} // namespace Nacre

@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/part_numbering.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/distributed/tria_base.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** Sets of numbers that are joined, each known by its smallest one. */
+    class JoinedNumbers
+    {
+    public:
+      explicit JoinedNumbers(const unsigned int n)
+        : root_(n)
+      {
+        std::iota(root_.begin(), root_.end(), 0u);
+      }
+
+      unsigned int
+      set_of(unsigned int k)
+      {
+        while (root_[k] != k)
+          k = root_[k] = root_[root_[k]];
+        return k;
+      }
+
+      void
+      join(const unsigned int a, const unsigned int b)
+      {
+        const unsigned int x = set_of(a), y = set_of(b);
+        root_[std::max(x, y)] = std::min(x, y);
+      }
+
+    private:
+      std::vector<unsigned int> root_;
+    };
+
+    /** Dof numbers where ranks begin, and the end of the last. */
+    std::vector<types::global_dof_index>
+    starts_of_ranks(const types::global_dof_index n_mine,
+                    const MPI_Comm                communicator)
+    {
+      std::vector<types::global_dof_index> starts{0};
+      for (const auto n : Utilities::MPI::all_gather(communicator, n_mine))
+        starts.push_back(starts.back() + n);
+      return starts;
+    }
+  } // namespace
+
+  /** One copy of a node: the parts that hold it, and who numbers it. */
+  struct PartNumbering::Copy
+  {
+    std::vector<PartNode>           members;
+    std::pair<CellId, unsigned int> lowest;
+    types::subdomain_id             owner = numbers::invalid_subdomain_id;
+    /** The number of its first dof; the others follow as the node's do. */
+    std::vector<Dof> dofs;
+  };
+
+  PartNumbering::PartNumbering(
+    const DoFHandler<dim, spacedim>              &dof_handler,
+    const std::vector<std::vector<unsigned int>> &face_nodes,
+    const std::vector<unsigned int>              &node_dofs,
+    CellParts                                    &parts)
+    : dof_handler_(dof_handler)
+    , face_nodes_(face_nodes)
+    , node_dofs_(node_dofs)
+    , n_nodes_(node_dofs.size() / spacedim)
+    , old_starts_(starts_of_ranks(dof_handler.n_locally_owned_dofs(),
+                                  dof_handler.get_communicator()))
+    , new_starts_(old_starts_)
+  {
+    if (parts.is_empty())
+      {
+        locally_owned_dofs_ = dof_handler.locally_owned_dofs();
+        locally_relevant_dofs_ =
+          DoFTools::extract_locally_relevant_dofs(dof_handler);
+        return;
+      }
+    auto copies = find_copies(parts);
+    number_copies(copies);
+    set_dofs(copies, parts);
+    make_index_sets(parts);
+  }
+
+  types::global_dof_index
+  PartNumbering::number_of(const types::global_dof_index dof) const
+  {
+    const auto rank =
+      std::upper_bound(old_starts_.begin(), old_starts_.end(), dof) -
+      old_starts_.begin() - 1;
+    return dof - old_starts_[rank] + new_starts_[rank];
+  }
+
+  std::map<types::global_dof_index, std::vector<PartNumbering::Copy>>
+  PartNumbering::find_copies(const CellParts &parts) const
+  {
+    // Number the nodes of all parts, and join those that are one.
+    const unsigned int             n_dofs = node_dofs_.size();
+    const auto                    &cells  = parts.touched_cells();
+    std::map<CellId, unsigned int> first_number;
+    std::vector<std::vector<Dof>>  cell_dofs;
+    unsigned int                   n = 0;
+    for (const auto &cell : cells)
+      {
+        first_number[cell->id()] = n;
+        n += parts.n_parts(cell) * n_nodes_;
+        cell_dofs.emplace_back(n_dofs);
+        cell->get_dof_indices(cell_dofs.back());
+      }
+    JoinedNumbers joined(n);
+    const auto number = [&](const EdgePiece::Side &side, const unsigned int a) {
+      return first_number.at(side.part.cell->id()) +
+             side.part.data->number * n_nodes_ + a;
+    };
+    std::vector<Dof> here(n_dofs), there(n_dofs);
+    for (const auto &cell : cells)
+      for (const auto face : cell->face_indices())
+        if (!cell->at_boundary(face) &&
+            !cell->neighbor(face)->is_artificial() &&
+            parts.has_pieces(cell, face))
+          for (const auto &piece : parts.pieces_between(cell, face))
+            {
+              const auto &[mine, other] = piece.sides;
+              cell->get_dof_indices(here);
+              other.part.cell->get_dof_indices(there);
+              for (const unsigned int a : face_nodes_[mine.face])
+                for (const unsigned int b : face_nodes_[other.face])
+                  if (here[node_dofs_[spacedim * a]] ==
+                      there[node_dofs_[spacedim * b]])
+                    joined.join(number(mine, a), number(other, b));
+            }
+    // Between cells that no cut divides, nodes are joined by edges of any kind.
+    std::map<std::pair<unsigned int, Dof>, unsigned int> of_line;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      if (!parts.is_cut(cells[k]))
+        for (const auto face : cells[k]->face_indices())
+          if (!parts.has_pieces(cells[k], face))
+            for (const unsigned int a : face_nodes_[face])
+              {
+                // Whole edges between whole cells: one node on both sides.
+                const auto found = of_line.emplace(
+                  std::make_pair(static_cast<unsigned int>(
+                                   cells[k]->face_index(face)),
+                                 cell_dofs[k][node_dofs_[spacedim * a]]),
+                  first_number.at(cells[k]->id()) + a);
+                joined.join(found.first->second,
+                            first_number.at(cells[k]->id()) + a);
+              }
+
+    std::map<Dof, bool> on_cut_cell;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      if (parts.is_cut(cells[k]))
+        for (unsigned int a = 0; a < n_nodes_; ++a)
+          on_cut_cell[cell_dofs[k][node_dofs_[spacedim * a]]] = true;
+    std::map<Dof, std::map<unsigned int, Copy>> by_set;
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      for (unsigned int i = 0; i < parts.n_parts(cells[k]); ++i)
+        for (unsigned int a = 0; a < n_nodes_; ++a)
+          {
+            const Dof dof = cell_dofs[k][node_dofs_[spacedim * a]];
+            if (on_cut_cell.count(dof) == 0)
+              continue;
+            const unsigned int set =
+              joined.set_of(first_number.at(cells[k]->id()) + i * n_nodes_ + a);
+            by_set[dof][set].members.push_back({cells[k], i, a});
+          }
+
+    std::map<Dof, std::vector<Copy>> copies;
+    for (auto &[dof, sets] : by_set)
+      {
+        const auto dof_owner =
+          std::upper_bound(old_starts_.begin(), old_starts_.end(), dof) -
+          old_starts_.begin() - 1;
+        auto &list = copies[dof];
+        for (auto &entry : sets)
+          {
+            Copy &copy = entry.second;
+            for (const auto &member : copy.members)
+              {
+                const auto key = std::make_pair(member.cell->id(), member.part);
+                if (copy.owner == numbers::invalid_subdomain_id ||
+                    key < copy.lowest)
+                  {
+                    copy.lowest = key;
+                    copy.owner  = member.cell->subdomain_id();
+                  }
+              }
+            list.push_back(copy);
+          }
+        // The first one is the lowest with a cell of the dof's owner.
+        const auto has_owner = [&](const Copy &copy) {
+          return std::any_of(copy.members.begin(),
+                             copy.members.end(),
+                             [&](const PartNode &member) {
+                               return member.cell->subdomain_id() == dof_owner;
+                             });
+        };
+        std::sort(list.begin(), list.end(), [&](const Copy &a, const Copy &b) {
+          const bool a_has = has_owner(a), b_has = has_owner(b);
+          return a_has != b_has ? a_has : a.lowest < b.lowest;
+        });
+        list.front().owner = dof_owner;
+      }
+    return copies;
+  }
+
+  void
+  PartNumbering::number_copies(std::map<Dof, std::vector<Copy>> &copies)
+  {
+    const auto communicator = dof_handler_.get_communicator();
+    const auto me           = Utilities::MPI::this_mpi_process(communicator);
+    // Copies of an edge's or a cell's inner nodes get consecutive numbers.
+    std::map<std::pair<unsigned int, Dof>, Dof> extra;
+    for (const auto &[dof, list] : copies)
+      for (unsigned int k = 1; k < list.size(); ++k)
+        if (list[k].owner == me)
+          {
+            const PartNode  &member = list[k].members.front();
+            std::vector<Dof> dofs(node_dofs_.size());
+            member.cell->get_dof_indices(dofs);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              extra[{k, dofs[node_dofs_[spacedim * member.node + c]]}] = 0;
+          }
+    const Dof n_base = dof_handler_.n_locally_owned_dofs();
+    new_starts_      = starts_of_ranks(n_base + extra.size(), communicator);
+    Dof next         = new_starts_[me] + n_base;
+    for (auto &entry : extra)
+      entry.second = next++;
+
+    for (auto &[dof, list] : copies)
+      for (unsigned int k = 0; k < list.size(); ++k)
+        if (list[k].owner == me)
+          {
+            const PartNode  &member = list[k].members.front();
+            std::vector<Dof> dofs(node_dofs_.size());
+            member.cell->get_dof_indices(dofs);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const Dof base = dofs[node_dofs_[spacedim * member.node + c]];
+                list[k].dofs.push_back(k == 0 ? number_of(base) :
+                                                extra.at({k, base}));
+              }
+          }
+  }
+
+  void
+  PartNumbering::set_dofs(std::map<Dof, std::vector<Copy>> &copies,
+                          CellParts                        &parts)
+  {
+    for (const auto &cell : parts.touched_cells())
+      for (auto &part : parts.parts(cell))
+        {
+          part.dofs.resize(node_dofs_.size());
+          cell->get_dof_indices(part.dofs);
+          for (unsigned int a = 0; a < n_nodes_; ++a)
+            {
+              const bool has_copies =
+                copies.count(part.dofs[node_dofs_[spacedim * a]]) > 0;
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  Dof &dof = part.dofs[node_dofs_[spacedim * a + c]];
+                  dof =
+                    has_copies ? numbers::invalid_dof_index : number_of(dof);
+                }
+            }
+        }
+    const auto fill = [&](const Copy &copy) {
+      for (const auto &member : copy.members)
+        for (unsigned int c = 0; c < spacedim; ++c)
+          parts.parts(member.cell)[member.part]
+            .dofs[node_dofs_[spacedim * member.node + c]] = copy.dofs[c];
+    };
+    const auto is_mine = [](const Copy &copy) {
+      return std::any_of(copy.members.begin(),
+                         copy.members.end(),
+                         [](const PartNode &member) {
+                           return member.cell->is_locally_owned();
+                         });
+    };
+    for (const auto &entry : copies)
+      for (const auto &copy : entry.second)
+        if (!copy.dofs.empty())
+          fill(copy);
+    exchange(parts);
+    for (auto &entry : copies)
+      for (auto &copy : entry.second)
+        {
+          if (!is_mine(copy))
+            continue;
+          for (const auto &member : copy.members)
+            {
+              const auto &dofs = parts.parts(member.cell)[member.part].dofs;
+              if (copy.dofs.empty() &&
+                  dofs[node_dofs_[spacedim * member.node]] !=
+                    numbers::invalid_dof_index)
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  copy.dofs.push_back(
+                    dofs[node_dofs_[spacedim * member.node + c]]);
+            }
+          Assert(!copy.dofs.empty(), ExcInternalError());
+          fill(copy);
+          copies_.push_back(copy.members);
+        }
+    exchange(parts);
+  }
+
+  void
+  PartNumbering::exchange(CellParts &parts) const
+  {
+    if (Utilities::MPI::n_mpi_processes(dof_handler_.get_communicator()) == 1)
+      return;
+    using Message = std::vector<std::vector<Dof>>;
+    GridTools::exchange_cell_data_to_ghosts<Message>(
+      dof_handler_,
+      [&](const CellPart::Cell &cell) -> std_cxx17::optional<Message> {
+        Message message;
+        if (!parts.is_touched(cell))
+          return {};
+        for (const auto &part : parts.parts(cell))
+          message.push_back(part.dofs);
+        return message;
+      },
+      [&](const CellPart::Cell &cell, const Message &message) {
+        // A rank may not know the cut that touches a ghost.
+        parts.touch(cell);
+        auto &of_cell = parts.parts(cell);
+        AssertDimension(of_cell.size(), message.size());
+        for (unsigned int i = 0; i < of_cell.size(); ++i)
+          of_cell[i].dofs.resize(message[i].size(), numbers::invalid_dof_index);
+        for (unsigned int i = 0; i < of_cell.size(); ++i)
+          for (unsigned int k = 0; k < message[i].size(); ++k)
+            if (message[i][k] != numbers::invalid_dof_index)
+              of_cell[i].dofs[k] = message[i][k];
+      });
+  }
+
+  void
+  PartNumbering::make_index_sets(const CellParts &parts)
+  {
+    const auto me =
+      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+    locally_owned_dofs_.set_size(n_dofs());
+    locally_owned_dofs_.add_range(new_starts_[me], new_starts_[me + 1]);
+    std::vector<Dof> dofs(node_dofs_.size()), all;
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        if (parts.is_touched(cell))
+          for (const auto &part : parts.parts(cell))
+            all.insert(all.end(), part.dofs.begin(), part.dofs.end());
+        else
+          {
+            cell->get_dof_indices(dofs);
+            for (const Dof dof : dofs)
+              all.push_back(number_of(dof));
+          }
+      }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    locally_relevant_dofs_ = locally_owned_dofs_;
+    locally_relevant_dofs_.add_indices(all.begin(), all.end());
+    locally_relevant_dofs_.compress();
+  }
+} // namespace Nacre
