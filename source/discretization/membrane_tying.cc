@@ -3,9 +3,14 @@
 
 #include <nacre/discretization/membrane_tying.h>
 
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <algorithm>
 
 namespace Nacre
 {
@@ -37,6 +42,85 @@ namespace Nacre
     {
       return {{1. - x[0] - x[1], x[0], x[1]}};
     }
+
+    /** Exponents (i, j) of the tied component @p v, by ascending i + j. */
+    std::vector<std::array<unsigned int, 2>>
+    tied_exponents(const Element &element, const unsigned int v)
+    {
+      const bool triangle =
+        element.reference_cell() == ReferenceCells::Triangle;
+      const unsigned int p     = element.degree;
+      const unsigned int i_max = triangle ? 1 : v == 1 ? p : p - 1;
+      const unsigned int j_max = triangle ? 1 : v == 0 ? p : p - 1;
+      std::vector<std::array<unsigned int, 2>> exponents;
+      for (unsigned int sum = 0; sum <= (triangle ? 1 : i_max + j_max); ++sum)
+        for (unsigned int i = 0; i <= std::min(sum, i_max); ++i)
+          if (sum - i <= j_max)
+            exponents.push_back({{i, sum - i}});
+      return exponents;
+    }
+
+    /** Columns of values [polynomial](point) of Legendre products on a box. */
+    std::vector<Vector<double>>
+    legendre_products(const std::vector<std::array<unsigned int, 2>> &exponents,
+                      const BoundingBox<dim>                         &box,
+                      const std::vector<Point<dim>>                  &points)
+    {
+      const auto legendre = Polynomials::Legendre::generate_complete_basis(
+        exponents.back()[0] + exponents.back()[1]);
+      std::vector<Vector<double>> columns;
+      for (const auto &[i, j] : exponents)
+        {
+          Vector<double> column(points.size());
+          for (unsigned int q = 0; q < points.size(); ++q)
+            {
+              const auto x = box.real_to_unit(points[q]);
+              column(q)    = legendre[i].value(x[0]) * legendre[j].value(x[1]);
+            }
+          columns.push_back(column);
+        }
+      return columns;
+    }
+
+    /**
+     * Modified Gram-Schmidt, twice over, in the weighted inner product of the
+     * @p columns. The @p followers, values elsewhere of the same functions,
+     * are combined alike. Dependent columns are removed.
+     */
+    void
+    orthonormalise(const std::vector<double>   &weights,
+                   std::vector<Vector<double>> &columns,
+                   std::vector<Vector<double>> &followers)
+    {
+      const auto product = [&](const auto &f, const auto &g) {
+        double sum = 0.;
+        for (unsigned int q = 0; q < weights.size(); ++q)
+          sum += weights[q] * f(q) * g(q);
+        return sum;
+      };
+      unsigned int n = 0;
+      for (unsigned int c = 0; c < columns.size(); ++c)
+        {
+          Vector<double> f = columns[c], g = followers[c];
+          const double   first_norm = std::sqrt(product(f, f));
+          for (unsigned int pass = 0; pass < 2; ++pass)
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                const double share = product(columns[k], f);
+                f.add(-share, columns[k]);
+                g.add(-share, followers[k]);
+              }
+          const double norm = std::sqrt(product(f, f));
+          if (norm <= 1e-11 * first_norm)
+            continue;
+          f /= norm;
+          g /= norm;
+          columns[n]     = f;
+          followers[n++] = g;
+        }
+      columns.resize(n);
+      followers.resize(n);
+    }
   } // namespace
 
   MembraneTying::MembraneTying(const Element                 &element,
@@ -63,6 +147,35 @@ namespace Nacre
           tying.weights_[3 * q + v].emplace_back(tying.samples_.size(), 1.);
           tying.samples_.push_back(sample);
         }
+    return tying;
+  }
+
+  MembraneTying
+  MembraneTying::projected(const Element                 &element,
+                           const Quadrature<dim>         &part,
+                           const std::vector<double>     &area_weights,
+                           const std::vector<Point<dim>> &targets)
+  {
+    AssertDimension(part.size(), area_weights.size());
+    MembraneTying tying = untied(part.get_points());
+    tying.weights_.assign(3 * targets.size(), Weights());
+    const BoundingBox<dim> box(part.get_points());
+    for (unsigned int v = 0; v < 3; ++v)
+      {
+        const auto exponents = tied_exponents(element, v);
+        auto at_points  = legendre_products(exponents, box, part.get_points());
+        auto at_targets = legendre_products(exponents, box, targets);
+        orthonormalise(area_weights, at_points, at_targets);
+        for (unsigned int q = 0; q < targets.size(); ++q)
+          for (unsigned int k = 0; k < part.size(); ++k)
+            {
+              double weight = 0.;
+              for (unsigned int j = 0; j < at_points.size(); ++j)
+                weight += at_targets[j](q) * at_points[j](k);
+              tying.weights_[3 * q + v].emplace_back(3 * k + v,
+                                                     weight * area_weights[k]);
+            }
+      }
     return tying;
   }
 

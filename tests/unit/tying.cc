@@ -6,6 +6,7 @@
 
 #include "unit_test.h"
 #include <nacre/discretization/membrane_tying.h>
+#include <nacre/discretization/part_quadrature.h>
 
 #include <cmath>
 
@@ -16,12 +17,12 @@ namespace
   /** (e11, e22, 2 e12) at a point of the reference cell. */
   using Strain = std::function<std::array<double, 3>(const Point<dim> &)>;
 
-  double
-  largest_error(const Element                 &element,
-                const std::vector<Point<dim>> &targets,
-                const Strain                  &strain)
+  /** The tied strain [3 target + component]. */
+  std::vector<double>
+  tied(const MembraneTying &tying,
+       const unsigned int   n_targets,
+       const Strain        &strain)
   {
-    const MembraneTying tying(element, targets);
     std::vector<double> samples;
     for (const auto &[point, direction] : tying.samples())
       {
@@ -29,16 +30,34 @@ namespace
         samples.push_back(direction[0] * e[0] + direction[1] * e[1] +
                           direction[2] * e[2]);
       }
-    double error = 0.;
+    std::vector<double> values(3 * n_targets);
+    for (unsigned int q = 0; q < n_targets; ++q)
+      for (unsigned int v = 0; v < 3; ++v)
+        for (const auto &[sample, weight] : tying.weights(q, v))
+          values[3 * q + v] += weight * samples[sample];
+    return values;
+  }
+
+  double
+  largest_error(const MembraneTying           &tying,
+                const std::vector<Point<dim>> &targets,
+                const Strain                  &strain)
+  {
+    const auto values = tied(tying, targets.size(), strain);
+    double     error  = 0.;
     for (unsigned int q = 0; q < targets.size(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
-        {
-          double value = 0.;
-          for (const auto &[sample, weight] : tying.weights(q, v))
-            value += weight * samples[sample];
-          error = std::max(error, std::abs(value - strain(targets[q])[v]));
-        }
+        error =
+          std::max(error, std::abs(values[3 * q + v] - strain(targets[q])[v]));
     return error;
+  }
+
+  double
+  largest_error(const Element                 &element,
+                const std::vector<Point<dim>> &targets,
+                const Strain                  &strain)
+  {
+    return largest_error(MembraneTying(element, targets), targets, strain);
   }
 
   const std::vector<Point<dim>> targets = {{0.1, 0.2},
@@ -77,6 +96,122 @@ BOOST_AUTO_TEST_CASE(triangles)
       {1. + x[0] - 2. * x[1], 0.5 * x[1], 2. - x[0] + x[1]}};
   };
   BOOST_TEST(largest_error(element, targets, linear) < 1e-13);
+}
+
+namespace
+{
+  /** A cell's parts: a quarter, a slice, and a triangle of the size 0.02. */
+  std::vector<CellPolygon>
+  parts(const ReferenceCell &cell)
+  {
+    std::vector<CellPolygon> all;
+    for (const auto &chain : {CutChain{{{0., .45}, {.5, .5}}, 0},
+                              CutChain{{{.02, 0.}, {0., .02}}, 0},
+                              CutChain{{{0., .3}, {.3, .5}, {.6, 0.}}, 0}})
+      for (const auto &part : divide(cell, {chain}))
+        all.push_back(part);
+    for (const auto &part : divide(cell,
+                                   {{{{0., .3}, {.7, .3}}, 0},
+                                    {{{0., .302}, {.7, .301}}, 0},
+                                    {{{.4, 0.}, {.4, .6}}, 0}}))
+      all.push_back(part);
+    return all;
+  }
+
+  /** An area element that varies. */
+  double
+  area_element(const Point<dim> &x)
+  {
+    return 1. + .3 * x[0] - .2 * x[0] * x[1];
+  }
+} // namespace
+
+// Values are of size 1, at points of the part: the projection's round-off is
+// some epsilon times the largest value of the polynomials, 1e-12.
+BOOST_AUTO_TEST_CASE(projections)
+{
+  for (const auto &element : {Element{ElementType::lagrange, 2},
+                              Element{ElementType::lagrange, 3},
+                              Element{ElementType::lagrange, 5},
+                              Element{ElementType::serendipity, 2},
+                              Element{ElementType::triangle, 2}})
+    for (const auto &part : parts(element.reference_cell()))
+      {
+        const bool          triangle = element.type == ElementType::triangle;
+        const int           p        = element.degree;
+        const auto          rule     = part_quadrature(part, p);
+        const auto         &points   = rule.get_points();
+        std::vector<double> weights;
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          weights.push_back(rule.weight(q) * area_element(points[q]));
+
+        const std::array<std::array<int, 2>, 3> degrees = {
+          {{{p - 1, p}}, {{p, p - 1}}, {{p - 1, p - 1}}}};
+        const auto kept = [&](const Point<dim> &x) {
+          std::array<double, 3> e;
+          for (unsigned int v = 0; v < 3; ++v)
+            e[v] = triangle ? v - 2. * x[0] + x[1] :
+                              std::pow(x[0], degrees[v][0]) *
+                                std::pow(x[1], degrees[v][1]);
+          return e;
+        };
+        const auto tying =
+          MembraneTying::projected(element, rule, weights, points);
+        BOOST_TEST(largest_error(tying, points, kept) < 1e-12);
+        // At the part's vertices, which lie beyond the points.
+        std::vector<Point<dim>> vertices;
+        for (unsigned int i = 0; i < part.n_vertices(); ++i)
+          vertices.push_back(part.vertex(i));
+        BOOST_TEST(largest_error(
+                     MembraneTying::projected(element, rule, weights, vertices),
+                     vertices,
+                     kept) < 1e-11);
+
+        // What isn't kept is orthogonal to what is; it has been 1 before.
+        const auto rough = [&](const Point<dim> &x) {
+          const double f = std::cos(7. * x[0] / (.1 + x[1]) + 3. * x[1]);
+          return std::array<double, 3>{{f, f, f}};
+        };
+        const auto projection = tied(tying, points.size(), rough);
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            double product = 0., square = 0., area = 0.;
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                const double rest = rough(points[q])[v] - projection[3 * q + v];
+                product += weights[q] * kept(points[q])[v] * rest;
+                square += weights[q] * rest * rest;
+                area += weights[q];
+              }
+            BOOST_TEST(std::abs(product) < 1e-13 * area);
+            BOOST_TEST(square > 1e-24 * area);
+          }
+      }
+}
+
+BOOST_AUTO_TEST_CASE(projection_onto_too_much)
+{
+  // xi1^p in e11 locks: a projection that kept it would do nothing.
+  const Element element{ElementType::lagrange, 3};
+  const auto    part =
+    divide(element.reference_cell(), {{{{0., .4}, {1., .6}}, 0}})[0];
+  const auto rule = part_quadrature(part, 3);
+  for (unsigned int v = 0; v < 3; ++v)
+    for (unsigned int c = 0; c < 2; ++c)
+      {
+        const unsigned int degree  = v < 2 && c != v ? 4 : 3;
+        const Strain       locking = [&](const Point<dim> &x) {
+          std::array<double, 3> e{};
+          e[v] = std::pow(x[c], degree);
+          return e;
+        };
+        BOOST_TEST(largest_error(MembraneTying::projected(element,
+                                                          rule,
+                                                          rule.get_weights(),
+                                                          rule.get_points()),
+                                 rule.get_points(),
+                                 locking) > 1e-4);
+      }
 }
 
 BOOST_AUTO_TEST_CASE(untied_strains_are_their_samples)

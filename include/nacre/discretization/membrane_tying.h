@@ -46,6 +46,30 @@ namespace Nacre
     static MembraneTying
     untied(const std::vector<Point<dim>> &targets);
 
+    /**
+     * On a part of a cell that is cut: the L2 projection over the part of each
+     * component onto the polynomials of the tied strain. These are Q_(p-1,p)
+     * of e11, Q_(p,p-1) of e22, Q_(p-1,p-1) of 2 e12 on quadrilaterals, and
+     * linear ones of each component on triangles. Interpolation from the whole
+     * cell's points would not be consistent on a part. All components are
+     * sampled at the rule's points x_k, and
+     *
+     *   e_v(target) = sum_k W(target, k) e_v(x_k),
+     *   W(x, k) = sum_j phi_j(x) phi_j(x_k) w_k, sum_k w_k phi_i phi_j = delta.
+     *
+     * Polynomials that depend on the others at the points to 1e-11 are left
+     * out.
+     *
+     * @param part         rule of the part, such as part_quadrature()
+     * @param area_weights w_k > 0: the rule's weights times the area element
+     * @param targets      where the strain is wanted, in the reference cell
+     */
+    static MembraneTying
+    projected(const Element                 &element,
+              const Quadrature<dim>         &part,
+              const std::vector<double>     &area_weights,
+              const std::vector<Point<dim>> &targets);
+
     /** The sampling points in the reference cell. */
     const std::vector<Point<dim>> &
     points() const
