@@ -9,6 +9,8 @@
 #include <deal.II/distributed/tria.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 namespace Nacre
 {
@@ -253,9 +255,10 @@ namespace Nacre
   }
 
 
-  Point<spacedim>
-  Midsurface::position(const Triangulation<dim, spacedim>::cell_iterator &cell,
-                       const Point<dim> &unit) const
+  Midsurface::CoarsePoint
+  Midsurface::coarse_point(
+    const Triangulation<dim, spacedim>::cell_iterator &cell,
+    const Point<dim>                                  &unit) const
   {
     // Up to the coarse cell. Its index is the order in which the cells were
     // given; the number in cell->id() is not, p4est has an order of its own.
@@ -270,13 +273,67 @@ namespace Nacre
         coarse_unit = to_parent(parent, ancestor, child, coarse_unit);
         ancestor    = parent;
       }
-    const unsigned int k = ancestor->index();
-    const bool is_half   = cell->reference_cell() == ReferenceCells::Triangle &&
+    const bool is_half = cell->reference_cell() == ReferenceCells::Triangle &&
                          !surface_->has_triangles();
-    const Point<spacedim> x = perfect_position(k, is_half, coarse_unit);
+    return {static_cast<unsigned int>(ancestor->index()), is_half, coarse_unit};
+  }
+
+
+  Point<spacedim>
+  Midsurface::position(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                       const Point<dim> &unit) const
+  {
+    const auto            coarse = coarse_point(cell, unit);
+    const Point<spacedim> x =
+      perfect_position(coarse.cell, coarse.is_half, coarse.unit);
     if (imperfection_ == nullptr)
       return x;
-    return x + (*imperfection_)(x, perfect_normal(k, is_half, coarse_unit));
+    return x + (*imperfection_)(x,
+                                perfect_normal(coarse.cell,
+                                               coarse.is_half,
+                                               coarse.unit));
+  }
+
+
+  bool
+  Midsurface::has_chart() const
+  {
+    return surface_->has_parameter_lines();
+  }
+
+
+  Point<spacedim>
+  Midsurface::chart(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                    const Point<dim> &unit) const
+  {
+    Assert(has_chart(), ExcInternalError());
+    const auto coarse = coarse_point(cell, unit);
+    if (coarse.is_half)
+      return surface_->chart(coarse.cell / 2,
+                             to_quadrilateral(diagonals_[coarse.cell / 2],
+                                              coarse.cell % 2,
+                                              coarse.unit));
+    return surface_->chart(coarse.cell, coarse.unit);
+  }
+
+
+  std::array<double, 2>
+  Midsurface::chart_periods() const
+  {
+    Assert(has_chart(), ExcInternalError());
+    // A vertex of the seam has another chart in the cells of its two sides.
+    std::array<double, 2>                   periods{{0., 0.}};
+    std::map<unsigned int, Point<spacedim>> charts;
+    for (const SurfaceDescription::Cell &cell : surface_->cells())
+      for (unsigned int i = 0; i < cell.vertices.size(); ++i)
+        {
+          const Point<spacedim> &first =
+            charts.emplace(cell.vertices[i], cell.chart[i]).first->second;
+          for (unsigned int d = 0; d < 2; ++d)
+            periods[d] =
+              std::max(periods[d], std::abs(cell.chart[i][d] - first[d]));
+        }
+    return periods;
   }
 
 

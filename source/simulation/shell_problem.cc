@@ -172,6 +172,7 @@ namespace Nacre
     model.eta            = shell_case.eta;
     model.result_axes    = result_axes_.make(constants);
     model.foundation = foundation_.make(constants, model.midsurface.regions());
+    model.cuts       = cuts_.make(constants, model.midsurface);
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);

@@ -84,6 +84,25 @@ namespace Nacre
     position(const Triangulation<dim, spacedim>::cell_iterator &cell,
              const Point<dim>                                  &unit) const;
 
+    /**
+     * Whether the surface lies over a rectangle of parameters (u, v), as its
+     * documentation describes them. Others have charts of their own making.
+     */
+    bool
+    has_chart() const;
+
+    /** The chart point (u, v, 0) there, for surfaces that have a chart. */
+    Point<spacedim>
+    chart(const Triangulation<dim, spacedim>::cell_iterator &cell,
+          const Point<dim>                                  &unit) const;
+
+    /**
+     * The period of u and of v for surfaces that have a chart; 0 where the
+     * surface isn't closed.
+     */
+    std::array<double, 2>
+    chart_periods() const;
+
     /** A name of the sides of each boundary id, which is the index. */
     const std::vector<std::string> &
     edge_names() const;
@@ -125,6 +144,20 @@ namespace Nacre
     has_triangles() const;
 
   private:
+    /** A point of a coarse cell, in which descendants' points are told. */
+    struct CoarsePoint
+    {
+      /** Index of the coarse cell of the mesh. */
+      unsigned int cell;
+      /** Whether it is half of the surface's. */
+      bool       is_half;
+      Point<dim> unit;
+    };
+
+    CoarsePoint
+    coarse_point(const Triangulation<dim, spacedim>::cell_iterator &cell,
+                 const Point<dim>                                  &unit) const;
+
     /** Without the imperfection, in the coarse cell number @p cell. */
     Point<spacedim>
     perfect_position(const unsigned int cell,

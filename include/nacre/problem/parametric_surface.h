@@ -175,6 +175,13 @@ namespace Nacre
     Point<3>
     chart(const unsigned int coarse_cell, const Point<2> &unit) const;
 
+    /** SurfaceDescription::has_parameter_lines */
+    bool
+    has_parameter_lines() const
+    {
+      return description_.has_parameter_lines;
+    }
+
     /** Whether the cells are triangles. */
     bool
     has_triangles() const;

@@ -6,6 +6,7 @@
 
 #include <nacre/mechanics/surface_axes.h>
 #include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/cuts.h>
 #include <nacre/problem/element.h>
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/foundation.h>
@@ -54,6 +55,9 @@ namespace Nacre
     SurfaceAxes result_axes = {};
 
     Foundation foundation = {};
+
+    /** Where the shell is cut. */
+    Cuts cuts = {};
 
     /** @p time with the factor of loads and prescribed values there. */
     Instant

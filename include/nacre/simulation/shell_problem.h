@@ -115,6 +115,7 @@ namespace Nacre
     set_files(const MPI_Comm communicator, const std::string &folder)
     {
       midsurface_.set_files(communicator, folder);
+      cuts_.set_files(communicator, folder);
     }
 
     /**
@@ -148,6 +149,7 @@ namespace Nacre
     DiscretizationParameters    discretization_;
     ResultAxesParameters        result_axes_;
     FoundationParameters        foundation_;
+    CutParameters               cuts_;
   };
 } // namespace Nacre
 
