@@ -282,7 +282,7 @@ namespace Tests
           }
       }
     u.compress(VectorOperation::insert);
-    discretization.hanging_node_constraints().distribute(u);
+    discretization.node_constraints().distribute(u);
     return u;
   }
 

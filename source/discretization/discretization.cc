@@ -39,13 +39,30 @@ namespace Nacre
                                  const MPI_Comm     communicator,
                                  const Element     &element,
                                  const unsigned int mapping_degree,
-                                 const unsigned int n_refinements,
-                                 const Cuts        &cuts)
-    : Discretization(midsurface,
-                     communicator,
-                     element,
-                     mapping_degree,
-                     n_refinements)
+                                 const unsigned int n_refinements)
+    : Discretization(
+        midsurface.create_triangulation(communicator,
+                                        element.reference_cell(),
+                                        n_refinements),
+        midsurface,
+        element,
+        mapping_degree,
+        Cuts())
+  {}
+
+  Discretization::Discretization(
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
+    const Midsurface                                           &midsurface,
+    const Element                                              &element,
+    const unsigned int                                          mapping_degree,
+    const Cuts                                                 &cuts)
+    : Discretization(
+        std::move(triangulation),
+        [&midsurface](const auto &cell, const auto &unit) {
+          return midsurface.position(cell, unit);
+        },
+        element,
+        mapping_degree)
   {
     if (cuts.is_empty())
       return;
@@ -54,30 +71,9 @@ namespace Nacre
                 ExcMessage("Discretization/Mapping degree: " +
                            std::to_string(mapping_degree) +
                            "; with cuts the geometry is isoparametric, 0."));
-    cut(cuts,
-        midsurface.has_chart() ?
-          InCell([&midsurface](const auto &cell, const auto &unit) {
-            return midsurface.chart(cell, unit);
-          }) :
-          InCell());
+    cut(midsurface, cuts);
     number_dofs();
   }
-
-  Discretization::Discretization(const Midsurface  &midsurface,
-                                 const MPI_Comm     communicator,
-                                 const Element     &element,
-                                 const unsigned int mapping_degree,
-                                 const unsigned int n_refinements)
-    : Discretization(
-        midsurface.create_triangulation(communicator,
-                                        element.reference_cell(),
-                                        n_refinements),
-        [&midsurface](const auto &cell, const auto &unit) {
-          return midsurface.position(cell, unit);
-        },
-        element,
-        mapping_degree)
-  {}
 
   Discretization::Discretization(
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
@@ -107,10 +103,9 @@ namespace Nacre
   }
 
   void
-  Discretization::cut(const Cuts &cuts, const InCell &chart)
+  Discretization::cut(const Midsurface &midsurface, const Cuts &cuts)
   {
-    const CutTrace trace(
-      *triangulation_,
+    CellMaps maps{
       element_.reference_cell(),
       [this](const auto &cell, const auto &unit) {
         const std::size_t n   = geometry_to_nodes_.n();
@@ -119,9 +114,15 @@ namespace Nacre
         for (unsigned int b = 0; b < n; ++b)
           x += geometry_fe().shape_value(b, unit) * nodes[b];
         return x;
-      },
-      chart,
-      cuts);
+      }};
+    if (midsurface.has_chart())
+      {
+        maps.chart = [&midsurface](const auto &cell, const auto &unit) {
+          return midsurface.chart(cell, unit);
+        };
+        maps.periods = midsurface.chart_periods();
+      }
+    const CutTrace trace(*triangulation_, maps, cuts);
     parts_         = CellParts(dof_handler_, trace);
     smallest_part_ = cuts.smallest_part;
   }

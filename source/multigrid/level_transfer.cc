@@ -386,7 +386,7 @@ namespace Nacre
             ghosts.push_back(term.first);
       }
     std::sort(ghosts.begin(), ghosts.end());
-    IndexSet ghost_set(coarse_.dof_handler().n_dofs());
+    IndexSet ghost_set(coarse_.n_dofs());
     ghost_set.add_indices(ghosts.begin(), ghosts.end());
     coarse_vector_.reinit(coarse_.locally_owned_dofs(),
                           ghost_set,

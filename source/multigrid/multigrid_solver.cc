@@ -115,7 +115,7 @@ namespace Nacre
   types::global_dof_index
   MultigridSolver::n_dofs(const unsigned int l) const
   {
-    return levels_[l]->discretization->dof_handler().n_dofs();
+    return levels_[l]->discretization->n_dofs();
   }
 
 
@@ -149,8 +149,8 @@ namespace Nacre
                                                  model_,
                                                  TermSelection::with_tangent);
     level->discretization = level->own_discretization.get();
-    if (level->discretization->dof_handler().n_dofs() >=
-        fine.dof_handler().n_dofs())
+    if (level->discretization->n_dofs() >=
+        fine.n_dofs())
       return false;
     levels_.push_back(std::move(level));
     return true;

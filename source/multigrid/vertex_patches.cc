@@ -48,7 +48,7 @@ namespace Nacre
                                const AffineConstraints<double> &constraints,
                                const PatchExtent                extent)
     : start(1, 0)
-    , foreign_dofs(discretization.dof_handler().n_dofs())
+    , foreign_dofs(discretization.n_dofs())
   {
     const auto &triangulation = discretization.triangulation();
     const auto  me            = triangulation.locally_owned_subdomain();

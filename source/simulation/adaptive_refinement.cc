@@ -261,7 +261,7 @@ namespace Nacre
   {
     const Discretization &mesh = solution.discretization;
     const double norm = std::sqrt(std::max(0., 2. * solution.energies.total()));
-    if (mesh.dof_handler().n_dofs() > max_dofs_ ||
+    if (mesh.n_dofs() > max_dofs_ ||
         (tolerance_ > 0. && estimate.value <= tolerance_ * norm))
       return {};
     return marking_ == MarkingType::doerfler ?

@@ -24,13 +24,11 @@ namespace Nacre
           model.midsurface.create_triangulation(communicator,
                                                 model.element.reference_cell(),
                                                 problem.n_refinements);
-      return Discretization(
-        std::move(mesh),
-        [&midsurface = model.midsurface](const auto &cell, const auto &unit) {
-          return midsurface.position(cell, unit);
-        },
-        model.element,
-        model.mapping_degree);
+      return Discretization(std::move(mesh),
+                            model.midsurface,
+                            model.element,
+                            model.mapping_degree,
+                            model.cuts);
     }
 
     /** Throws if rigid motions are left free, naming them. */
@@ -94,14 +92,19 @@ namespace Nacre
                              Log               &log) const
   {
     const SolverParameters &chosen = problem_.solver;
-    const bool can_coarsen = MultigridSolver::has_coarser_mesh(discretization_);
-    if (chosen.type == SolverType::multigrid && !can_coarsen)
+    const bool is_cut      = !problem_.model.cuts.is_empty();
+    const bool can_coarsen =
+      !is_cut && MultigridSolver::has_coarser_mesh(discretization_);
+    if (chosen.type == SolverType::multigrid && is_cut)
+      log.warning("Linear solver/Solver: multigrid isn't implemented with cuts "
+                  "(Cuts/Cuts); the direct solver is taken.");
+    else if (chosen.type == SolverType::multigrid && !can_coarsen)
       log.warning(
         "Linear solver/Solver: the mesh is not refined from a coarser one, "
         "nor is there a coarser space than degree 2; the direct solver is "
         "taken.");
     SolverTask task;
-    task.n_dofs             = discretization_.dof_handler().n_dofs();
+    task.n_dofs             = discretization_.n_dofs();
     task.degree             = discretization_.degree();
     task.n_right_hand_sides = n_right_hand_sides;
     task.n_levels = discretization_.triangulation().n_global_levels() - 1;

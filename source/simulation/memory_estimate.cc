@@ -83,7 +83,7 @@ namespace Nacre
                   const SolverStorage   storage)
   {
     return estimate_memory(
-      discretization.dof_handler().n_dofs(),
+      discretization.n_dofs(),
       discretization.triangulation().n_global_active_cells(),
       discretization.degree(),
       Utilities::MPI::n_mpi_processes(discretization.communicator()),

@@ -465,7 +465,7 @@ namespace Nacre
     text << std::setprecision(3) << "refined after step " << state.step
          << ": estimate " << estimated << " before, "
          << discretization.triangulation().n_global_active_cells() << " cells, "
-         << discretization.dof_handler().n_dofs() << " dofs";
+         << discretization.n_dofs() << " dofs";
     log_.progress() << text.str() << std::endl;
     state.motion.u              = transfer->field_on(discretization, 0);
     state.motion.v              = transfer->field_on(discretization, 1);

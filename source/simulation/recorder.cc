@@ -95,7 +95,7 @@ namespace Nacre
     row.element = name_of(model.element.type);
     row.degree  = model.element.degree;
     row.cells   = shell.discretization.triangulation().n_global_active_cells();
-    row.dofs    = shell.discretization.dof_handler().n_dofs();
+    row.dofs    = shell.discretization.n_dofs();
     row.eta     = model.eta ? in_text(*model.eta, 4) : "default";
     const auto thickness = problem_->constants.find("h");
     row.thickness        = thickness == problem_->constants.end() ?
@@ -160,7 +160,7 @@ namespace Nacre
     text << '\n'
          << name_of(problem_->model.element.type) << ", p "
          << shell.discretization.degree() << ", "
-         << shell.discretization.dof_handler().n_dofs() << " dofs: ";
+         << shell.discretization.n_dofs() << " dofs: ";
     write_balance(Balance(shell, *origin), *origin, text);
     balances_ += text.str();
   }

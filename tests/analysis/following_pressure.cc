@@ -39,7 +39,7 @@ main(int argc, char **argv)
                                       0);
   const Assembly                 shell(discretization, model);
   TrilinosWrappers::SparseMatrix matrix;
-  shell.reinit_matrix(discretization.hanging_node_constraints(), matrix);
+  shell.reinit_matrix(discretization.node_constraints(), matrix);
 
   const auto ghosted = [&](const TrilinosVector &owned) {
     TrilinosVector result(discretization.locally_owned_dofs(),
@@ -55,7 +55,7 @@ main(int argc, char **argv)
   direction.compress(VectorOperation::insert);
 
   shell.assemble(ghosted(u),
-                 discretization.hanging_node_constraints(),
+                 discretization.node_constraints(),
                  matrix,
                  force);
   TrilinosVector derivative(u), plus(u), minus(u), trial(u);

@@ -213,7 +213,7 @@ large_displacement(const Discretization &discretization, const double factor)
   for (unsigned int i = 0; i < u.size(); ++i)
     u(i) = factor * (u(i) + noise(generator));
   u.compress(VectorOperation::insert);
-  discretization.hanging_node_constraints().distribute(u);
+  discretization.node_constraints().distribute(u);
   return u;
 }
 
@@ -233,7 +233,7 @@ condense(const std::vector<std::pair<unsigned int, double>> &column,
 std::vector<std::vector<std::pair<unsigned int, double>>>
 free_columns(const Discretization &discretization)
 {
-  const auto        &constraints = discretization.hanging_node_constraints();
+  const auto        &constraints = discretization.node_constraints();
   const unsigned int n           = discretization.dof_handler().n_dofs();
   std::vector<std::vector<std::pair<unsigned int, double>>> columns(n);
   for (unsigned int i = 0; i < n; ++i)
@@ -259,7 +259,7 @@ compare_derivatives(const std::string    &name,
     dense_tangent(discretization,
                   assembly,
                   u,
-                  discretization.hanging_node_constraints());
+                  discretization.node_constraints());
   ComplexVector u_complex(u.size());
   for (unsigned int i = 0; i < u.size(); ++i)
     u_complex[i] = u(i);

@@ -99,11 +99,11 @@ struct System
                                        10.));
     matrix = dense_system(discretization,
                           assembly,
-                          discretization.hanging_node_constraints())
+                          discretization.node_constraints())
                .first;
     // What the library puts on the diagonal of eliminated rows means nothing.
     for (unsigned int i = 0; i < matrix.m(); ++i)
-      if (discretization.hanging_node_constraints().is_constrained(i))
+      if (discretization.node_constraints().is_constrained(i))
         matrix(i, i) = 0.;
     u        = interpolate(discretization, field);
     energies = assembly.residual(u, residual);

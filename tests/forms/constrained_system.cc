@@ -38,7 +38,7 @@ make_constraints(const Discretization &discretization)
 {
   const auto               &relevant = discretization.locally_relevant_dofs();
   AffineConstraints<double> constraints(relevant);
-  constraints.merge(discretization.hanging_node_constraints());
+  constraints.merge(discretization.node_constraints());
   for (const auto dof : relevant)
     if (dof % 7 == 0 && !constraints.is_constrained(dof))
       {

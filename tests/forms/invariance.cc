@@ -199,7 +199,7 @@ smallest_eigenvalue(const Discretization        &discretization,
   const Assembly assembly(
     discretization,
     ShellParts(section, conditions, loads, membrane_strain, eta));
-  const auto &constraints = discretization.hanging_node_constraints();
+  const auto &constraints = discretization.node_constraints();
   const auto  values =
     eigenvalues(dense_system(discretization, assembly, constraints).first,
                 constraints);

@@ -65,7 +65,7 @@ owned_interpolant(const Discretization &discretization,
           }
       }
   u.compress(VectorOperation::insert);
-  discretization.hanging_node_constraints().distribute(u);
+  discretization.node_constraints().distribute(u);
   return u;
 }
 

@@ -74,15 +74,15 @@ namespace Nacre
                    const MPI_Comm     communicator,
                    const Element     &element,
                    const unsigned int mapping_degree,
-                   const unsigned int n_refinements,
-                   const Cuts        &cuts);
-
-    /** Without cuts. */
-    Discretization(const Midsurface  &midsurface,
-                   const MPI_Comm     communicator,
-                   const Element     &element,
-                   const unsigned int mapping_degree,
                    const unsigned int n_refinements);
+
+    /** Take over a mesh of @p midsurface, and divide its cells by @p cuts. */
+    Discretization(
+      std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
+      const Midsurface                                           &midsurface,
+      const Element                                              &element,
+      const unsigned int                                          mapping_degree,
+      const Cuts                                                 &cuts);
 
     /**
      * Take over a mesh that is no Midsurface's. @p position gives the positions
@@ -272,13 +272,9 @@ namespace Nacre
     void
     store_geometry_nodes();
 
-    using InCell = std::function<
-      Point<spacedim>(const Triangulation<dim, spacedim>::cell_iterator &,
-                      const Point<dim> &)>;
-
-    /** Divide the cells. @param chart empty: the surface has none */
+    /** Divide the cells. */
     void
-    cut(const Cuts &cuts, const InCell &chart);
+    cut(const Midsurface &midsurface, const Cuts &cuts);
 
     /** Number the dofs of all parts. */
     void
