@@ -135,26 +135,28 @@ namespace Nacre
   namespace
   {
     /**
-     * Height over length of the triangle at the vertex @p i, 0 if it is no
-     * ear: flat, reflex, or with another vertex in it or on its boundary.
+     * Of the triangle at the vertex @p i: whether it is an ear, with no other
+     * vertex in it or on its boundary, and its height over its length, 0 if
+     * it is flat or reflex.
      */
-    double
-    shape_of_ear(const std::vector<Point<dim>> &vertices, const unsigned int i)
+    std::pair<bool, double>
+    ear_and_shape(const std::vector<Point<dim>> &vertices, const unsigned int i)
     {
-      const unsigned int              n       = vertices.size();
-      const std::array<Point<dim>, 3> corners = {
-        {vertices[(i + n - 1) % n], vertices[i], vertices[(i + 1) % n]}};
-      const auto &[a, b, c] = corners;
-      const double length =
+      const unsigned int n = vertices.size();
+      const Point<dim>  &a = vertices[(i + n - 1) % n];
+      const Point<dim>  &b = vertices[i];
+      const Point<dim>  &c = vertices[(i + 1) % n];
+      const double       length =
         std::max({a.distance(b), b.distance(c), c.distance(a)});
       const double height = twice_area(a, b, c) / length;
       if (height <= round_off)
-        return 0.;
-      for (const auto &x : vertices)
-        if (x != a && x != b && x != c && offset(a, b, x) > -round_off &&
-            offset(b, c, x) > -round_off && offset(c, a, x) > -round_off)
-          return 0.;
-      return height / length;
+        return {false, 0.};
+      const bool ear =
+        std::none_of(vertices.begin(), vertices.end(), [&](const auto &x) {
+          return x != a && x != b && x != c && offset(a, b, x) > -round_off &&
+                 offset(b, c, x) > -round_off && offset(c, a, x) > -round_off;
+        });
+      return {ear, height / length};
     }
   } // namespace
 
@@ -164,20 +166,24 @@ namespace Nacre
     std::vector<std::array<Point<dim>, 3>> ears;
     for (auto rest = vertices_; rest.size() > 2;)
       {
-        const unsigned int n    = rest.size();
-        unsigned int       best = 0;
-        double             most = 0.;
+        // Ears come before other corners, which are only needed where sides
+        // overlap by the distance of snapping.
+        const unsigned int      n    = rest.size();
+        unsigned int            best = 0;
+        std::pair<bool, double> most(false, 0.);
         for (unsigned int i = 0; i < n; ++i)
-          if (const double shape = shape_of_ear(rest, i); shape > most)
+          if (const auto corner = ear_and_shape(rest, i); corner > most)
             {
-              most = shape;
+              most = corner;
               best = i;
             }
-        AssertThrow(most > 0., ExcInternalError());
+        if (most.second == 0.)
+          break; // what is left is flat
         ears.push_back(
           {{rest[(best + n - 1) % n], rest[best], rest[(best + 1) % n]}});
         rest.erase(rest.begin() + best);
       }
+    Assert(!ears.empty(), ExcMessage("The polygon has no area."));
     return ears;
   }
 

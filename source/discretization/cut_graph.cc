@@ -184,7 +184,12 @@ namespace Nacre
       }
     else if (polygon_.contains(nodes_[a] + 0.5 * (nodes_[b] - nodes_[a]),
                                snap_distance))
-      edges_.emplace(sorted({a, b}), side); // the first to come stays
+      {
+        // A face stays one, else the first lip to come.
+        const auto place = edges_.emplace(sorted({a, b}), side).first;
+        if (side.face != numbers::invalid_unsigned_int)
+          place->second = side;
+      }
   }
 
   /** Walk around all faces, with the face to the left. */

@@ -132,7 +132,6 @@ BOOST_AUTO_TEST_CASE(projections)
 {
   for (const auto &element : {Element{ElementType::lagrange, 2},
                               Element{ElementType::lagrange, 3},
-                              Element{ElementType::lagrange, 5},
                               Element{ElementType::serendipity, 2},
                               Element{ElementType::triangle, 2}})
     for (const auto &part : parts(element.reference_cell()))
