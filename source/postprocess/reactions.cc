@@ -30,15 +30,15 @@ namespace Nacre
     {
       const auto &node_dofs = discretization.node_dofs();
       std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const auto &cell :
-           discretization.dof_handler().active_cell_iterators())
-        if (cell->is_locally_owned() && cell->at_boundary())
-          for (const auto face : cell->face_indices())
-            if (cell->at_boundary(face) &&
-                edges.count(cell->face(face)->boundary_id()) > 0)
+      for (const CellPart &part : discretization.owned_parts())
+        if (part.cell->at_boundary())
+          for (const auto face : part.cell->face_indices())
+            if (part.cell->at_boundary(face) &&
+                edges.count(part.cell->face(face)->boundary_id()) > 0 &&
+                !discretization.cell_parts().pieces_of(part, face).empty())
               {
-                const auto nodes = discretization.node_positions(cell);
-                cell->get_dof_indices(dofs);
+                const auto nodes = discretization.node_positions(part);
+                discretization.get_dof_indices(part, dofs);
                 for (const unsigned int a : discretization.face_nodes(face))
                   {
                     Dofs of_node;
