@@ -134,7 +134,9 @@ namespace Nacre
   std::vector<EdgePiece>
   CellParts::pieces_between(const Cell &cell, const unsigned int face) const
   {
-    const Cell         neighbor = cell->neighbor(face);
+    const Cell neighbor = cell->neighbor(face);
+    if (neighbor->is_artificial())
+      return {};
     const unsigned int back     = cell->neighbor_of_neighbor(face);
     const bool turns = first_vertex(cell, face) != first_vertex(neighbor, back);
     const auto &opened =

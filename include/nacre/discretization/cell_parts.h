@@ -87,8 +87,8 @@ namespace Nacre
     }
 
     /**
-     * The pieces of an edge to a neighbour of the same size. Over both cells of
-     * an edge the pieces and their numbers are the same.
+     * The pieces of an edge to a neighbour of the same size; none if the rank
+     * doesn't know the neighbour.
      */
     std::vector<EdgePiece>
     pieces_between(const Cell &cell, const unsigned int face) const;
