@@ -40,14 +40,13 @@ namespace Nacre
                                  const Element     &element,
                                  const unsigned int mapping_degree,
                                  const unsigned int n_refinements)
-    : Discretization(
-        midsurface.create_triangulation(communicator,
-                                        element.reference_cell(),
-                                        n_refinements),
-        midsurface,
-        element,
-        mapping_degree,
-        Cuts())
+    : Discretization(midsurface.create_triangulation(communicator,
+                                                     element.reference_cell(),
+                                                     n_refinements),
+                     midsurface,
+                     element,
+                     mapping_degree,
+                     Cuts())
   {}
 
   Discretization::Discretization(
@@ -105,16 +104,16 @@ namespace Nacre
   void
   Discretization::cut(const Midsurface &midsurface, const Cuts &cuts)
   {
-    CellMaps maps{
-      element_.reference_cell(),
-      [this](const auto &cell, const auto &unit) {
-        const std::size_t n   = geometry_to_nodes_.n();
-        const auto     *nodes = &geometry_nodes_[cell->active_cell_index() * n];
-        Point<spacedim> x;
-        for (unsigned int b = 0; b < n; ++b)
-          x += geometry_fe().shape_value(b, unit) * nodes[b];
-        return x;
-      }};
+    CellMaps maps{element_.reference_cell(),
+                  [this](const auto &cell, const auto &unit) {
+                    const std::size_t n = geometry_to_nodes_.n();
+                    const auto       *nodes =
+                      &geometry_nodes_[cell->active_cell_index() * n];
+                    Point<spacedim> x;
+                    for (unsigned int b = 0; b < n; ++b)
+                      x += geometry_fe().shape_value(b, unit) * nodes[b];
+                    return x;
+                  }};
     if (midsurface.has_chart())
       {
         maps.chart = [&midsurface](const auto &cell, const auto &unit) {
@@ -335,6 +334,19 @@ namespace Nacre
   Discretization::node_constraints() const
   {
     return node_constraints_;
+  }
+
+  Point<spacedim>
+  Discretization::point_inside(const CellPart &part) const
+  {
+    const Point<dim> unit  = part.is_cut() ?
+                               part.polygon().inner_point() :
+                               element_.reference_cell().barycenter<dim>();
+    const auto       nodes = geometry_nodes(part);
+    Point<spacedim>  x;
+    for (unsigned int b = 0; b < nodes.size(); ++b)
+      x += geometry_fe().shape_value(b, unit) * nodes[b];
+    return x;
   }
 
   std::vector<Point<spacedim>>

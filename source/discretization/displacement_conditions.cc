@@ -5,6 +5,8 @@
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/discretization/edge_plane.h>
 #include <nacre/discretization/rigid_motions.h>
+#include <nacre/discretization/shell_components.h>
+#include <nacre/discretization/shell_values.h>
 #include <nacre/problem/foundation.h>
 
 #include <deal.II/fe/fe_nothing.h>
@@ -304,8 +306,9 @@ namespace Nacre
               continue;
             if (conditions.rotation != nullptr)
               // theta = t0 . (omega x n) = omega . (n x t0)
-              rotation_axes_.push_back(
-                cross_product_3d(edge_node.conormal, edge_node.normal));
+              rotation_axes_.emplace_back(edge_node.dofs[0],
+                                          cross_product_3d(edge_node.conormal,
+                                                           edge_node.normal));
             Node &node    = nodes_[edge_node.dofs[0]];
             node.position = edge_node.position;
             node.dofs     = edge_node.dofs;
@@ -517,58 +520,79 @@ namespace Nacre
   std::vector<std::string>
   DisplacementConditions::free_rigid_motions() const
   {
-    const auto   extent = discretization_.extent();
-    RigidMotions motions(extent.first, extent.second);
+    const ShellComponents                components(discretization_);
+    const auto                           extent = discretization_.extent();
+    const RigidMotions                   none(extent.first, extent.second);
+    std::vector<RigidMotions>            motions(components.size(), none);
+    std::vector<types::global_dof_index> dofs;
     for (const auto &entry : nodes_)
-      for (const auto &component : entry.second.components)
-        motions.hold_displacement(entry.second.position, component.direction);
+      dofs.push_back(entry.first);
     for (const auto &condition : points_.conditions())
-      motions.hold_displacement(condition.place.position,
-                                axis(condition.component));
-    for (const auto &axis : rotation_axes_)
-      motions.hold_rotation(axis);
+      dofs.push_back(condition.place.dofs[0][0]);
+    for (const auto &[dof, axis] : rotation_axes_)
+      dofs.push_back(dof);
+    const auto of_node = components.of_nodes(dofs);
+
+    unsigned int k = 0;
+    for (const auto &entry : nodes_)
+      {
+        for (const auto &component : entry.second.components)
+          motions[of_node[k]].hold_displacement(entry.second.position,
+                                                component.direction);
+        ++k;
+      }
+    for (const auto &condition : points_.conditions())
+      motions[of_node[k++]].hold_displacement(condition.place.position,
+                                              axis(condition.component));
+    for (const auto &[dof, axis] : rotation_axes_)
+      motions[of_node[k++]].hold_rotation(axis);
     if (foundation_ != nullptr && !foundation_->is_zero())
       {
-        RigidMotions held(extent.first, extent.second);
+        std::vector<RigidMotions> held(components.size(), none);
         run_on_all_ranks(discretization_.communicator(),
-                         [&]() { hold_by_foundation(held); });
-        motions.add_of_all_ranks(held, discretization_.communicator());
+                         [&]() { hold_by_foundation(components, held); });
+        for (unsigned int c = 0; c < components.size(); ++c)
+          motions[c].add_of_all_ranks(held[c], discretization_.communicator());
       }
-    return motions.free_motions();
+    std::vector<std::string> words;
+    for (unsigned int c = 0; c < components.size(); ++c)
+      for (const auto &motion : motions[c].free_motions())
+        {
+          std::ostringstream text;
+          text << motion;
+          if (components.size() > 1)
+            text << " of the piece around (" << components.point(c) << ')';
+          words.push_back(text.str());
+        }
+    return words;
   }
 
   void
-  DisplacementConditions::hold_by_foundation(RigidMotions &motions) const
+  DisplacementConditions::hold_by_foundation(
+    const ShellComponents     &components,
+    std::vector<RigidMotions> &motions) const
   {
-    const FE_Nothing<dim, spacedim> nothing(
-      discretization_.element().reference_cell());
-    FEValues<dim, spacedim> fe_values(
-      discretization_.mapping(),
-      nothing,
-      discretization_.element().reduced_quadrature(),
-      update_quadrature_points | update_jacobians);
-    for (const auto &cell :
-         discretization_.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          fe_values.reinit(cell);
-          for (const unsigned int q : fe_values.quadrature_point_indices())
-            {
-              const Point<spacedim> x = fe_values.quadrature_point(q);
-              const auto [k_n, k_t] =
-                foundation_->stiffness({x, cell->material_id()});
-              const auto   &J = fe_values.jacobian(q);
-              const Vector3 a_1({J[0][0], J[1][0], J[2][0]});
-              const Vector3 a_2({J[0][1], J[1][1], J[2][1]});
-              const Vector3 t0 = unit(cross_product_3d(a_1, a_2));
-              if (k_n > 0.)
-                motions.hold_displacement(x, t0);
-              if (k_t > 0.)
-                {
-                  motions.hold_displacement(x, unit(a_1));
-                  motions.hold_displacement(x, cross_product_3d(t0, unit(a_1)));
-                }
-            }
-        }
+    ShellCellValues values(discretization_,
+                           discretization_.element().reduced_quadrature(),
+                           false);
+    for (const CellPart &part : discretization_.owned_parts())
+      {
+        values.reinit_frames(part);
+        RigidMotions &of_part = motions[components.of(part)];
+        for (unsigned int q = 0; q < values.n_points(); ++q)
+          {
+            const auto x          = values.point(q);
+            const auto [k_n, k_t] = foundation_->stiffness(x);
+            const auto &frame     = values.frame(q);
+            const auto  e_1       = unit(frame.a_cov[0]);
+            if (k_n > 0.)
+              of_part.hold_displacement(x, frame.t0);
+            if (k_t > 0.)
+              {
+                of_part.hold_displacement(x, e_1);
+                of_part.hold_displacement(x, cross_product_3d(frame.t0, e_1));
+              }
+          }
+      }
   }
 } // namespace Nacre

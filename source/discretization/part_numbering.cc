@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/joined_numbers.h>
 #include <nacre/discretization/part_numbering.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,41 +13,11 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace Nacre
 {
   namespace
   {
-    /** Sets of numbers that are joined, each known by its smallest one. */
-    class JoinedNumbers
-    {
-    public:
-      explicit JoinedNumbers(const unsigned int n)
-        : root_(n)
-      {
-        std::iota(root_.begin(), root_.end(), 0u);
-      }
-
-      unsigned int
-      set_of(unsigned int k)
-      {
-        while (root_[k] != k)
-          k = root_[k] = root_[root_[k]];
-        return k;
-      }
-
-      void
-      join(const unsigned int a, const unsigned int b)
-      {
-        const unsigned int x = set_of(a), y = set_of(b);
-        root_[std::max(x, y)] = std::min(x, y);
-      }
-
-    private:
-      std::vector<unsigned int> root_;
-    };
-
     /** Dof numbers where ranks begin, and the end of the last. */
     std::vector<types::global_dof_index>
     starts_of_ranks(const types::global_dof_index n_mine,

@@ -149,8 +149,7 @@ namespace Nacre
                                                  model_,
                                                  TermSelection::with_tangent);
     level->discretization = level->own_discretization.get();
-    if (level->discretization->n_dofs() >=
-        fine.n_dofs())
+    if (level->discretization->n_dofs() >= fine.n_dofs())
       return false;
     levels_.push_back(std::move(level));
     return true;

@@ -92,8 +92,8 @@ namespace Nacre
                              Log               &log) const
   {
     const SolverParameters &chosen = problem_.solver;
-    const bool is_cut      = !problem_.model.cuts.is_empty();
-    const bool can_coarsen =
+    const bool              is_cut = !problem_.model.cuts.is_empty();
+    const bool              can_coarsen =
       !is_cut && MultigridSolver::has_coarser_mesh(discretization_);
     if (chosen.type == SolverType::multigrid && is_cut)
       log.warning("Linear solver/Solver: multigrid isn't implemented with cuts "

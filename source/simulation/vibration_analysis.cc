@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/rigid_motions.h>
-#include <nacre/simulation/connected_parts.h>
+#include <nacre/simulation/rigid_shares.h>
 #include <nacre/simulation/vibration_analysis.h>
 
 #include <cmath>
@@ -85,14 +85,11 @@ namespace Nacre
   {
     const auto sums =
       bending_and_mass(shell.discretization(), problem_.model.section);
-    const double D     = Utilities::MPI::sum(sums.first, communicator_);
-    const double m     = Utilities::MPI::sum(sums.second, communicator_);
-    const double L     = shell.discretization().extent().second;
-    const double size  = D / m * std::pow(numbers::PI / L, 4);
-    double       shift = shell.conditions().free_rigid_motions().empty() &&
-                       n_parts(shell.discretization()) == 1 ?
-                           0. :
-                           -size;
+    const double D    = Utilities::MPI::sum(sums.first, communicator_);
+    const double m    = Utilities::MPI::sum(sums.second, communicator_);
+    const double L    = shell.discretization().extent().second;
+    const double size = D / m * std::pow(numbers::PI / L, 4);
+    double shift = shell.conditions().free_rigid_motions().empty() ? 0. : -size;
     for (unsigned int trial = 0; trial < 40; ++trial)
       {
         if (problem.try_count_below(shift).value_or(1) == 0)
@@ -206,10 +203,6 @@ namespace Nacre
         const auto names = shell.conditions().free_rigid_motions();
         for (const auto &name : names)
           text += (&name == &names.front() ? ": " : "; ") + name;
-        const unsigned int parts = n_parts(shell.discretization());
-        if (parts > 1)
-          text += "; of the whole shell, which has " + std::to_string(parts) +
-                  " parts";
         modes.notes.push_back(text + '.');
       }
     if (n_unstable > 0)

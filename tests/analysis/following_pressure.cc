@@ -54,10 +54,7 @@ main(int argc, char **argv)
     direction(i) = std::sin(1. + 3. * i);
   direction.compress(VectorOperation::insert);
 
-  shell.assemble(ghosted(u),
-                 discretization.node_constraints(),
-                 matrix,
-                 force);
+  shell.assemble(ghosted(u), discretization.node_constraints(), matrix, force);
   TrilinosVector derivative(u), plus(u), minus(u), trial(u);
   matrix.vmult(derivative, direction);
   const double h = 1e-3; // quadratic in u: central differences are exact

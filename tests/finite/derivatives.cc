@@ -253,13 +253,12 @@ compare_derivatives(const std::string    &name,
                     ComplexShell         &shell,
                     const bool            is_gradient)
 {
-  const auto u       = large_displacement(discretization, 1.);
-  const auto columns = free_columns(discretization);
-  const auto [matrix, force] =
-    dense_tangent(discretization,
-                  assembly,
-                  u,
-                  discretization.node_constraints());
+  const auto u               = large_displacement(discretization, 1.);
+  const auto columns         = free_columns(discretization);
+  const auto [matrix, force] = dense_tangent(discretization,
+                                             assembly,
+                                             u,
+                                             discretization.node_constraints());
   ComplexVector u_complex(u.size());
   for (unsigned int i = 0; i < u.size(); ++i)
     u_complex[i] = u(i);

@@ -97,10 +97,9 @@ struct System
                                        parameters.loads,
                                        {MembraneStrain::tied, form},
                                        10.));
-    matrix = dense_system(discretization,
-                          assembly,
-                          discretization.node_constraints())
-               .first;
+    matrix =
+      dense_system(discretization, assembly, discretization.node_constraints())
+        .first;
     // What the library puts on the diagonal of eliminated rows means nothing.
     for (unsigned int i = 0; i < matrix.m(); ++i)
       if (discretization.node_constraints().is_constrained(i))

@@ -81,8 +81,8 @@ namespace Nacre
       std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation,
       const Midsurface                                           &midsurface,
       const Element                                              &element,
-      const unsigned int                                          mapping_degree,
-      const Cuts                                                 &cuts);
+      const unsigned int mapping_degree,
+      const Cuts        &cuts);
 
     /**
      * Take over a mesh that is no Midsurface's. @p position gives the positions
@@ -214,6 +214,10 @@ namespace Nacre
     /** Nodes that follow others: hanging ones, and those of small parts. */
     const AffineConstraints<double> &
     node_constraints() const;
+
+    /** A point inside of @p part (length). */
+    Point<spacedim>
+    point_inside(const CellPart &part) const;
 
     /** Positions (length) of the displacement nodes of @p part. */
     std::vector<Point<spacedim>>

@@ -16,6 +16,7 @@ namespace Nacre
 {
   struct Foundation;
   class RigidMotions;
+  class ShellComponents;
 
   /**
    * Prescribed displacements as constraints of nodes: every node collects the
@@ -79,8 +80,8 @@ namespace Nacre
 
     /**
      * The rigid motions that neither a displacement nor a rotation condition
-     * nor the foundation prevents, in words; empty if the shell is held.
-     * Collective.
+     * nor the foundation prevents, in words; empty if the shell is held. Of a
+     * shell of several components the words name a point. Collective.
      */
     std::vector<std::string>
     free_rigid_motions() const;
@@ -97,9 +98,10 @@ namespace Nacre
               const Tensor<1, spacedim> &force) const;
 
   private:
-    /** What the foundation holds of this rank's cells. */
+    /** What the foundation holds of this rank's cells, by component. */
     void
-    hold_by_foundation(RigidMotions &motions) const;
+    hold_by_foundation(const ShellComponents     &components,
+                       std::vector<RigidMotions> &motions) const;
 
     using Vector3 = Tensor<1, spacedim>;
 
@@ -209,8 +211,8 @@ namespace Nacre
      * EdgeConditions::edge.
      */
     std::map<types::boundary_id, Vector3> planes_;
-    /** Rotation axes t at X where t . omega is prevented. */
-    std::vector<Vector3> rotation_axes_;
+    /** First dofs of nodes and axes t there where t . omega is prevented. */
+    std::vector<std::pair<types::global_dof_index, Vector3>> rotation_axes_;
   };
 } // namespace Nacre
 

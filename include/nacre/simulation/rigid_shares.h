@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#ifndef nacre_simulation_connected_parts_h
-#define nacre_simulation_connected_parts_h
+#ifndef nacre_simulation_rigid_shares_h
+#define nacre_simulation_rigid_shares_h
 
 #include <nacre/forms/mass_terms.h>
 #include <nacre/simulation/discrete_shell.h>
@@ -11,12 +11,8 @@
 
 namespace Nacre
 {
-  /** Number of parts of the mesh that share no vertex. */
-  unsigned int
-  n_parts(const Discretization &discretization);
-
   /**
-   * Which of the @p modes are rigid motions of the parts of the mesh: all but
+   * Which of the @p modes are rigid motions of the shell's components: all but
    * 1e-6 of the kinetic energy is that of such motions, and the strain energy
    * vanishes but for round-off. Collective.
    * @param mass of the shell @param K its stiffness

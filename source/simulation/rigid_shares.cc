@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/simulation/connected_parts.h>
+#include <nacre/discretization/shell_components.h>
+#include <nacre/simulation/rigid_shares.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 namespace Nacre
 {
@@ -14,61 +12,32 @@ namespace Nacre
   {
     using PartVector = TrilinosWrappers::MPI::Vector;
 
-    /** The part of each coarse cell, by its index; parts count from 0. */
-    std::vector<unsigned int>
-    parts_of_coarse_cells(const Triangulation<dim, spacedim> &mesh)
-    {
-      // Every rank knows all coarse cells.
-      std::vector<unsigned int> root(mesh.n_vertices());
-      std::iota(root.begin(), root.end(), 0u);
-      const auto find = [&](unsigned int v) {
-        while (root[v] != v)
-          v = root[v] = root[root[v]];
-        return v;
-      };
-      for (const auto &cell : mesh.cell_iterators_on_level(0))
-        for (const unsigned int v : cell->vertex_indices())
-          root[find(cell->vertex_index(v))] = find(cell->vertex_index(0));
-      std::map<unsigned int, unsigned int> numbers;
-      std::vector<unsigned int>            parts(mesh.n_cells(0));
-      for (const auto &cell : mesh.cell_iterators_on_level(0))
-        parts[cell->index()] =
-          numbers.emplace(find(cell->vertex_index(0)), numbers.size())
-            .first->second;
-      return parts;
-    }
-
-    /** The six rigid motions of each part, orthonormal in the mass. */
+    /** The six rigid motions of each component, orthonormal in the mass. */
     std::vector<PartVector>
     rigid_basis(const DiscreteShell &shell, const MassTerms &mass)
     {
       const Discretization &discretization = shell.discretization();
-      const auto parts = parts_of_coarse_cells(discretization.triangulation());
-      const unsigned int n_parts =
-        1 + *std::max_element(parts.begin(), parts.end());
+      const ShellComponents components(discretization);
       const auto [centre, length] = discretization.extent();
-      std::vector<PartVector> motions(6 * n_parts, shell.owned_vector());
+      std::vector<PartVector> motions(6 * components.size(),
+                                      shell.owned_vector());
       const auto             &node_dofs = discretization.node_dofs();
       std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const CellPart &here : discretization.owned_parts())
+      for (const CellPart &part : discretization.owned_parts())
         {
-          auto coarse =
-            typename Triangulation<dim, spacedim>::cell_iterator(here.cell);
-          while (coarse->level() > 0)
-            coarse = coarse->parent();
-          const unsigned int part = parts[coarse->index()];
-          discretization.get_dof_indices(here, dofs);
-          const auto nodes = discretization.node_positions(here);
+          const unsigned int first = 6 * components.of(part);
+          discretization.get_dof_indices(part, dofs);
+          const auto nodes = discretization.node_positions(part);
           for (unsigned int k = 0; k < dofs.size(); ++k)
             {
               const auto i = dofs[node_dofs[k]];
               if (!discretization.locally_owned_dofs().is_element(i))
                 continue;
-              const unsigned int c = k % spacedim;
-              const auto         x = (nodes[k / spacedim] - centre) / length;
-              motions[6 * part + c](i) = 1.;
+              const unsigned int c  = k % spacedim;
+              const auto         x  = (nodes[k / spacedim] - centre) / length;
+              motions[first + c](i) = 1.;
               for (unsigned int d = 0; d < spacedim; ++d)
-                motions[6 * part + 3 + d](i) =
+                motions[first + 3 + d](i) =
                   cross_product_3d(Point<spacedim>::unit_vector(d), x)[c];
             }
         }
@@ -92,13 +61,6 @@ namespace Nacre
     }
   } // namespace
 
-  unsigned int
-  n_parts(const Discretization &discretization)
-  {
-    const auto parts = parts_of_coarse_cells(discretization.triangulation());
-    return 1 + *std::max_element(parts.begin(), parts.end());
-  }
-
   std::vector<bool>
   rigid_shares(const DiscreteShell                  &shell,
                const MassTerms                      &mass,
@@ -107,8 +69,7 @@ namespace Nacre
                const std::vector<PartVector>        &modes)
   {
     std::vector<bool> result(modes.size(), false);
-    if (shell.conditions().free_rigid_motions().empty() &&
-        n_parts(shell.discretization()) == 1)
+    if (shell.conditions().free_rigid_motions().empty())
       return result;
     const auto motions = rigid_basis(shell, mass);
     PartVector Mx = shell.owned_vector(), Kx = shell.owned_vector();
