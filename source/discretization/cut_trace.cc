@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/discretization/cell_projection.h>
+#include <nacre/discretization/cut_events.h>
+#include <nacre/discretization/cut_trace.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace Nacre
+{
+  /** What is found, before neighbours have told each other. */
+  class CutTrace::Tracer
+  {
+  public:
+    Tracer(const parallel::TriangulationBase<dim, spacedim> &mesh,
+           const CellMaps                                   &maps,
+           const Cuts                                       &cuts,
+           const std::vector<CutPath>                       &paths);
+
+    /** Trace this rank's cells. */
+    void
+    trace();
+
+    /**
+     * Tell what one cell of an edge has found to the other, on this rank and on
+     * others; collective.
+     */
+    void
+    join();
+
+    /** Throws if a cut cell has hanging edges, and for cuts without a part. */
+    void
+    check() const;
+
+    /** The tips of all ranks; collective. */
+    std::vector<Tip>
+    tips() const;
+
+    /** Add this rank's pieces of cuts. */
+    void
+    add_lines(std::vector<Line> &lines) const;
+
+    /** Hand over the chains and openings of an owned or ghost cell. */
+    void
+    move_to(const unsigned int                               index,
+            std::vector<CutChain>                           &chains,
+            std::vector<std::vector<std::array<double, 2>>> &opened);
+
+  private:
+    /** An interval of a face, and the cut that runs there. */
+    struct Opening
+    {
+      double       begin;
+      double       end;
+      unsigned int cut;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &begin &end &cut;
+      }
+    };
+
+    /** Of a cell. */
+    struct CellTrace
+    {
+      std::vector<CutChain>             chains;
+      std::vector<std::vector<Opening>> openings;
+
+      bool
+      is_empty() const
+      {
+        return chains.empty() && openings.empty();
+      }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        std::size_t n = chains.size();
+        archive    &n;
+        chains.resize(n);
+        for (CutChain &chain : chains)
+          archive &chain.points &chain.cut;
+        archive &openings;
+      }
+    };
+
+    void
+    trace_run(const Cell &cell, const unsigned int cut, CutRun run);
+
+    void
+    add_tip(const Cell           &cell,
+            const unsigned int    cut,
+            const bool            at_end,
+            const CutEvent       &event,
+            const Tensor<1, dim> &ahead);
+
+    /** Add to a face, in the terms of its cell. */
+    void
+    open(const Cell &cell, const unsigned int face, const Opening &opening);
+
+    void
+    exchange();
+
+    bool
+    is_on_boundary(const Cell &cell, const CutEvent &event) const;
+
+    const parallel::TriangulationBase<dim, spacedim> &mesh_;
+    const CellMaps                                   &maps_;
+    const Cuts                                       &cuts_;
+    const std::vector<CutPath>                       &paths_;
+    const double                                      snap_;
+    const CutFaces                                    faces_;
+    std::vector<CellTrace>                            traces_;
+    /** Candidates; several cells may share a tip. */
+    std::vector<Tip> tips_;
+    /** By vertex index. */
+    std::vector<bool> boundary_vertices_;
+  };
+
+
+  CutTrace::Tracer::Tracer(
+    const parallel::TriangulationBase<dim, spacedim> &mesh,
+    const CellMaps                                   &maps,
+    const Cuts                                       &cuts,
+    const std::vector<CutPath>                       &paths)
+    : mesh_(mesh)
+    , maps_(maps)
+    , cuts_(cuts)
+    , paths_(paths)
+    , snap_(std::max(cuts.snap, 1e-7))
+    , faces_(maps.reference_cell)
+    , traces_(mesh.n_active_cells())
+    , boundary_vertices_(mesh.n_vertices(), false)
+  {
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f))
+            for (const unsigned int v : cell->face(f)->vertex_indices())
+              boundary_vertices_[cell->face(f)->vertex_index(v)] = true;
+  }
+
+
+  void
+  CutTrace::Tracer::trace()
+  {
+    const CutCrossings crossings(maps_, paths_, cuts_.snap);
+    for (const auto &cell : mesh_.active_cell_iterators())
+      if (cell->is_locally_owned() && crossings.may_cross(cell))
+        for (const auto &[path, run] :
+             cut_runs(crossings, paths_, faces_, cell))
+          trace_run(cell, path, run);
+  }
+
+
+  void
+  CutTrace::Tracer::trace_run(const Cell        &cell,
+                              const unsigned int cut,
+                              CutRun             run)
+  {
+    if (run.size() < 2)
+      return;
+    const CutRun original = run;
+    snap_points(run, faces_, snap_);
+    if (run.front().is_begin)
+      add_tip(cell,
+              cut,
+              false,
+              run.front(),
+              original[0].unit - original[1].unit);
+    const std::size_t n = run.size();
+    if (run.back().is_end)
+      add_tip(cell,
+              cut,
+              true,
+              run.back(),
+              original[n - 1].unit - original[n - 2].unit);
+
+    // From place to place on the cell's boundary
+    CutChain chain{{run[0].unit}, cut};
+    for (std::size_t i = 1; i < n; ++i)
+      {
+        const CutEvent &a = run[i - 1], &b = run[i];
+        if (are_one_place(a, b))
+          continue;
+        const bool begins_here    = chain.points.size() == 1 && a.faces != 0;
+        const unsigned int common = a.faces & b.faces;
+        if (begins_here && common != 0)
+          {
+            unsigned int f = 0;
+            while (((common >> f) & 1u) == 0)
+              ++f;
+            const double s_a = faces_.parameter(f, a.unit);
+            const double s_b = faces_.parameter(f, b.unit);
+            open(cell, f, {std::min(s_a, s_b), std::max(s_a, s_b), cut});
+            chain.points = {b.unit};
+            continue;
+          }
+        chain.points.push_back(b.unit);
+        if (b.faces == 0 && i + 1 < n)
+          continue;
+        traces_[cell->active_cell_index()].chains.push_back(chain);
+        chain.points = {b.unit};
+      }
+  }
+
+
+  bool
+  CutTrace::Tracer::is_on_boundary(const Cell     &cell,
+                                   const CutEvent &event) const
+  {
+    for (const unsigned int v : cell->vertex_indices())
+      if (event.unit == maps_.reference_cell.template vertex<dim>(v) &&
+          boundary_vertices_[cell->vertex_index(v)])
+        return true;
+    for (unsigned int f = 0; f < faces_.size(); ++f)
+      if (((event.faces >> f) & 1u) != 0 && cell->at_boundary(f))
+        return true;
+    return false;
+  }
+
+
+  void
+  CutTrace::Tracer::add_tip(const Cell           &cell,
+                            const unsigned int    cut,
+                            const bool            at_end,
+                            const CutEvent       &event,
+                            const Tensor<1, dim> &ahead)
+  {
+    if (is_on_boundary(cell, event))
+      return;
+    const auto map = [&](const Point<dim> &unit) {
+      return maps_.position(cell, unit);
+    };
+    const auto a = DifferentiatedMap<decltype(map)>{map}.tangents(event.unit);
+    Tensor<1, spacedim> direction = ahead[0] * a[0] + ahead[1] * a[1];
+    direction /= direction.norm();
+    tips_.push_back(
+      {cut, at_end, map(event.unit), direction, cell->id(), event.unit});
+  }
+
+
+  void
+  CutTrace::Tracer::open(const Cell        &cell,
+                         const unsigned int face,
+                         const Opening     &opening)
+  {
+    if (cell->at_boundary(face))
+      return;
+    auto &openings = traces_[cell->active_cell_index()].openings;
+    openings.resize(faces_.size());
+    // Both cells of an edge may have found it.
+    if (std::none_of(openings[face].begin(),
+                     openings[face].end(),
+                     [&](const Opening &other) {
+                       return other.begin == opening.begin &&
+                              other.end == opening.end &&
+                              other.cut == opening.cut;
+                     }))
+      openings[face].push_back(opening);
+  }
+
+
+  void
+  CutTrace::Tracer::exchange()
+  {
+    GridTools::exchange_cell_data_to_ghosts<CellTrace>(
+      mesh_,
+      [&](const Cell &cell) -> std_cxx17::optional<CellTrace> {
+        const CellTrace &trace = traces_[cell->active_cell_index()];
+        if (trace.is_empty())
+          return {};
+        return trace;
+      },
+      [&](const Cell &cell, const CellTrace &trace) {
+        traces_[cell->active_cell_index()] = trace;
+      });
+  }
+
+
+  void
+  CutTrace::Tracer::join()
+  {
+    exchange();
+    const auto corner = [&](const unsigned int f) {
+      return maps_.reference_cell.face_to_cell_vertices(f, 0, 1);
+    };
+    const std::vector<CellTrace> before = traces_;
+    for (const auto &cell : mesh_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          {
+            if (cell->at_boundary(f) || !cell->neighbor(f)->is_active() ||
+                cell->neighbor_is_coarser(f))
+              continue;
+            const auto  neighbor = cell->neighbor(f);
+            const auto &openings =
+              before[neighbor->active_cell_index()].openings;
+            if (openings.empty())
+              continue;
+            const unsigned int g      = cell->neighbor_of_neighbor(f);
+            const bool         turned = neighbor->vertex_index(corner(g)) !=
+                                cell->vertex_index(corner(f));
+            for (Opening opening : openings[g])
+              {
+                if (turned)
+                  opening = {1. - opening.end, 1. - opening.begin, opening.cut};
+                open(cell, f, opening);
+              }
+          }
+    exchange();
+  }
+
+
+  void
+  CutTrace::Tracer::check() const
+  {
+    std::vector<unsigned int> is_found(paths_.size(), 0);
+    run_on_all_ranks(mesh_.get_communicator(), [&]() {
+      for (const auto &cell : mesh_.active_cell_iterators())
+        {
+          const CellTrace &trace = traces_[cell->active_cell_index()];
+          if (!cell->is_locally_owned() || trace.is_empty())
+            continue;
+          unsigned int cut = numbers::invalid_unsigned_int;
+          for (const auto &chain : trace.chains)
+            is_found[cut = chain.cut] = 1;
+          for (const auto &openings : trace.openings)
+            for (const auto &opening : openings)
+              is_found[cut = opening.cut] = 1;
+          for (const unsigned int f : cell->face_indices())
+            {
+              const bool hangs =
+                !cell->at_boundary(f) &&
+                (cell->neighbor_is_coarser(f) || cell->face(f)->has_children());
+              std::ostringstream message;
+              message << "Cuts/Cuts, '" << cuts_.curves[cut].name
+                      << "': the cut runs through a cell with neighbours of "
+                         "another size, near to the point ("
+                      << maps_.position(cell, faces_.point(f, 0.5))
+                      << "). Refine around the cut alike.";
+              AssertThrow(!hangs, ExcMessage(message.str()));
+            }
+        }
+    });
+    is_found = [&]() {
+      std::vector<unsigned int> of_all(is_found.size());
+      Utilities::MPI::max(is_found, mesh_.get_communicator(), of_all);
+      return of_all;
+    }();
+    for (std::size_t i = 0; i < is_found.size(); ++i)
+      AssertThrow(is_found[i] == 1,
+                  ExcMessage("Cuts/Cuts, '" + cuts_.curves[i].name +
+                             "': no part of the cut lies inside the surface; "
+                             "a cut along the surface's edge, or shorter than "
+                             "'Snap' of a cell, cuts nothing."));
+  }
+
+
+  std::vector<CutTrace::Tip>
+  CutTrace::Tracer::tips() const
+  {
+    std::map<std::pair<unsigned int, bool>, Tip> lowest;
+    for (const auto &tips :
+         Utilities::MPI::all_gather(mesh_.get_communicator(), tips_))
+      for (const Tip &tip : tips)
+        {
+          const auto found =
+            lowest.emplace(std::make_pair(tip.cut, tip.at_end), tip).first;
+          if (tip.cell < found->second.cell)
+            found->second = tip;
+        }
+    std::vector<Tip> result;
+    for (const auto &[key, tip] : lowest)
+      {
+        // A cut around a closed surface ends where it has begun.
+        const auto other = lowest.find({key.first, !key.second});
+        if (other == lowest.end() ||
+            other->second.position.distance(tip.position) >
+              1e-9 * Tensor<1, spacedim>(tip.position).norm())
+          result.push_back(tip);
+      }
+    return result;
+  }
+
+
+  void
+  CutTrace::Tracer::add_lines(std::vector<Line> &lines) const
+  {
+    const unsigned int n_pieces = 8;
+    const auto         add      = [&](const Cell                    &cell,
+                         const unsigned int             cut,
+                         const std::vector<Point<dim>> &points) {
+      Line line{cut, {maps_.position(cell, points[0])}};
+      for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        for (unsigned int k = 1; k <= n_pieces; ++k)
+          {
+            const double part = static_cast<double>(k) / n_pieces;
+            line.points.push_back(maps_.position(
+              cell,
+              Point<dim>((1. - part) * points[i] + part * points[i + 1])));
+          }
+      lines.push_back(line);
+    };
+    for (const auto &cell : mesh_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const CellTrace &trace = traces_[cell->active_cell_index()];
+          for (const CutChain &chain : trace.chains)
+            add(cell, chain.cut, chain.points);
+          for (unsigned int f = 0; f < trace.openings.size(); ++f)
+            if (!cell->at_boundary(f) && cell->id() < cell->neighbor(f)->id())
+              for (const Opening &opening : trace.openings[f])
+                add(cell,
+                    opening.cut,
+                    {faces_.point(f, opening.begin),
+                     faces_.point(f, opening.end)});
+        }
+  }
+
+
+  void
+  CutTrace::Tracer::move_to(
+    const unsigned int                               index,
+    std::vector<CutChain>                           &chains,
+    std::vector<std::vector<std::array<double, 2>>> &opened)
+  {
+    CellTrace &trace = traces_[index];
+    chains           = std::move(trace.chains);
+    opened.resize(faces_.size());
+    for (unsigned int f = 0; f < trace.openings.size(); ++f)
+      {
+        auto &openings = trace.openings[f];
+        std::sort(openings.begin(),
+                  openings.end(),
+                  [](const Opening &a, const Opening &b) {
+                    return a.begin < b.begin;
+                  });
+        for (const Opening &opening : openings)
+          if (!opened[f].empty() && opening.begin <= opened[f].back()[1])
+            opened[f].back()[1] = std::max(opened[f].back()[1], opening.end);
+          else
+            opened[f].push_back({{opening.begin, opening.end}});
+      }
+  }
+
+
+  CutTrace::CutTrace(const parallel::TriangulationBase<dim, spacedim> &mesh,
+                     const CellMaps                                   &maps,
+                     const Cuts                                       &cuts)
+    : chains_(mesh.n_active_cells())
+    , opened_(mesh.n_active_cells(),
+              std::vector<std::vector<std::array<double, 2>>>(
+                maps.reference_cell.n_faces()))
+  {
+    if (cuts.is_empty())
+      return;
+    const auto paths = make_cut_paths(mesh, maps, cuts);
+    Tracer     tracer(mesh, maps, cuts, paths);
+    run_on_all_ranks(mesh.get_communicator(), [&]() { tracer.trace(); });
+    tracer.join();
+    tracer.check();
+    tips_ = tracer.tips();
+    run_on_all_ranks(mesh.get_communicator(),
+                     [&]() { tracer.add_lines(lines_); });
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (!cell->is_artificial())
+        tracer.move_to(cell->active_cell_index(),
+                       chains_[cell->active_cell_index()],
+                       opened_[cell->active_cell_index()]);
+  }
+
+
+  bool
+  CutTrace::is_cut(const unsigned int active_cell_index) const
+  {
+    return !chains_[active_cell_index].empty() ||
+           std::any_of(opened_[active_cell_index].begin(),
+                       opened_[active_cell_index].end(),
+                       [](const auto &intervals) {
+                         return !intervals.empty();
+                       });
+  }
+} // namespace Nacre
