@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// How cuts run through the cells of meshes: lengths against closed forms,
+// Cuts of a parameter file, and how they run through the cells of meshes: lengths against closed forms,
 // crossings that both cells of an edge have in common bit for bit, no ends but
 // tips and those on the surface's boundary, tips, messages.
 
@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -117,15 +118,29 @@ namespace
     return result;
   }
 
-  /** Whether cuts pass through the same places; a cut may turn back at one. */
+  /**
+   * Whether cuts pass through the same places of an edge. A cut may turn back
+   * there, or meet an opening.
+   */
   bool
-  agree(const std::map<double, unsigned int> &a,
-        const std::map<double, unsigned int> &b)
+  agree(const std::map<double, unsigned int>     &a,
+        const std::map<double, unsigned int>     &b,
+        const std::vector<std::array<double, 2>> &opened)
   {
     for (const auto *one : {&a, &b})
-      for (const auto &[s, n] : *one)
-        if (n % 2 == 1 && (one == &a ? b : a).count(s) == 0)
-          return false;
+      for (const auto &place : *one)
+        {
+          const double s = place.first;
+          const bool   is_opened =
+            std::any_of(opened.begin(),
+                        opened.end(),
+                        [&](const auto &interval) {
+                          return interval[0] <= s && s <= interval[1];
+                        });
+          if (place.second % 2 == 1 && !is_opened &&
+              (one == &a ? b : a).count(s) == 0)
+            return false;
+        }
     return true;
   }
 
@@ -162,8 +177,8 @@ namespace
           for (const auto &tip : trace.tips())
             is_tip =
               is_tip || tip.cell == cell->id() || tip.cell == other->id();
-          if ((!agree(here, there) && !is_tip) ||
-              intervals != trace.opened(cell->active_cell_index(), f))
+          const auto &opened = trace.opened(cell->active_cell_index(), f);
+          if ((!agree(here, there, opened) && !is_tip) || intervals != opened)
             ++n;
         }
     return Utilities::MPI::sum(n, MPI_COMM_WORLD);
@@ -390,6 +405,25 @@ namespace
           one_cut(xyz, {{2., 0., -0.2}, {2., 0., 1.2}}),
           {1., 1e-12, 0, 2, 0, 6});
 
+    const Shell tube("set Surface = cylinder; set Subdivisions = 5, 3; "
+                     "subsection cylinder; set Radius = 0.2; end",
+                     0);
+    check("along a tube, not on its far side",
+          tube,
+          one_cut(xyz, {{0.2, 0., -0.2}, {0.2, 0., 1.2}}),
+          {1., 1e-12, 0, 2, 0, 3});
+    const Shell spiral("set Surface = expression; set Subdivisions = 16, 2; "
+                       "subsection expression; set Range u = 0, 4*pi; set "
+                       "Position = (1 + 0.1*u)*cos(u), (1 + 0.1*u)*sin(u), v; "
+                       "end",
+                       0);
+    check("on one turn of a spiral",
+          spiral,
+          one_cut(xyz,
+                  {{1.03 * std::cos(0.3), 1.03 * std::sin(0.3), 0.2},
+                   {1.03 * std::cos(0.3), 1.03 * std::sin(0.3), 0.7}}),
+          {0.5, 1e-12, 2, 2, 2, 0});
+
     const Shell triangles(plate, 1, ReferenceCells::Triangle);
     check("triangles",
           triangles,
@@ -487,6 +521,47 @@ namespace
              std::to_string(n_traced) + " bad");
   }
 
+  /** The curves of a text, as CutParameters reads them. */
+  void
+  check_parameters()
+  {
+    const Shell shell(plate, 0);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::ofstream("flap.dat") << "# u, v\n0 .5\n1, .5\n2;.6 # end\n\n\n"
+                                   "0 0 0\n1 0 0\n1 1 0\n0 0 0\n";
+    ParameterAcceptor::clear();
+    CutParameters parameters;
+    parameters.set_files(MPI_COMM_WORLD, ".");
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(
+      "subsection Cuts\n set Cuts = slit: uv (2*a, -0.1) (2.3, 3.1); "
+      "hole: uv closed expression 1 + cos(2*pi*s), a*sin(2*pi*s), 8 points; "
+      "arc: xyz expression s, s^2, 0, 5 points; flap: file flap.dat; "
+      "ring: xyz closed (0, 0, a), (0, 1, 1) (1, 0, 1)\n"
+      "set Remove = (1, a, 0); (0, 0, 1)\n set Snap = 0.1\nend\n");
+    ParameterAcceptor::parse_all_parameters();
+    const Cuts         cuts = parameters.make({{"a", 0.5}}, *shell.surface);
+    std::ostringstream text;
+    for (const CutCurve &curve : cuts.curves)
+      text << curve.name << ' ' << (curve.coordinates == uv ? "uv" : "xyz")
+           << (curve.is_closed ? " closed " : " ") << curve.points.size()
+           << ", ";
+    report(text.str() == "slit uv 2, hole uv closed 8, arc xyz 5, flap-1 uv 3, "
+                         "flap-2 xyz closed 3, ring xyz closed 3, ",
+           "curves: " + text.str());
+    const auto is_at =
+      [&](const unsigned int curve, const unsigned int i, const Point<3> &x) {
+        return cuts.curves[curve].points[i].distance(x) < 1e-14;
+      };
+    report(is_at(0, 0, {1., -0.1, 0.}) && is_at(1, 2, {1., 0.5, 0.}) &&
+             is_at(2, 4, {1., 1., 0.}) && is_at(2, 1, {0.25, 0.0625, 0.}) &&
+             is_at(3, 2, {2., 0.6, 0.}) && is_at(4, 2, {1., 1., 0.}) &&
+             is_at(5, 0, {0., 0., 0.5}) && cuts.remove.size() == 2 &&
+             cuts.remove[0] == Point<3>(1., 0.5, 0.) && cuts.snap == 0.1 &&
+             cuts.smallest_part == 0.25,
+           "their points");
+  }
+
   void
   check_message(const std::string &name,
                 const Shell       &shell,
@@ -555,6 +630,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_parameters();
   check_plates();
   check_shells();
   check_random_cuts();
