@@ -147,8 +147,9 @@ namespace Nacre
             s        = s < snap ? 0. : s > 1. - snap ? 1. : s;
             if (std::abs(s - faces.parameter(f, run[beside].unit)) < snap)
               s = faces.parameter(f, run[beside].unit);
-            event.unit  = faces.point(f, s);
-            event.faces = faces.mask(f, s);
+            event.unit     = faces.point(f, s);
+            event.faces    = faces.mask(f, s);
+            event.is_moved = true;
             return;
           }
     };
@@ -156,5 +157,25 @@ namespace Nacre
       move(i, i - 1);
     for (std::size_t i = run.size(); i-- > 1;)
       move(i - 1, i);
+
+    CutRun result;
+    for (const CutEvent &event : run)
+      {
+        std::size_t n = result.size();
+        if (n > 1 && result[n - 1].is_moved &&
+            are_one_place(result[n - 2], event))
+          {
+            result.pop_back();
+            --n;
+          }
+        if (n > 0 && are_one_place(result[n - 1], event))
+          {
+            result[n - 1].is_begin |= event.is_begin;
+            result[n - 1].is_end |= event.is_end;
+          }
+        else
+          result.push_back(event);
+      }
+    run = std::move(result);
   }
 } // namespace Nacre

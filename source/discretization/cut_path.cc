@@ -7,9 +7,13 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <deal.II/numerics/rtree.h>
 
 #include <limits>
+#include <map>
+#include <memory>
 #include <sstream>
 
 namespace Nacre
@@ -59,6 +63,7 @@ namespace Nacre
     public:
       CellBoxes(const MeshOfCuts &mesh, const CellMaps &maps)
         : maps_(maps)
+        , boundary_vertices_(GridTools::get_all_vertices_at_boundary(mesh))
       {
         const ReferenceCell &reference_cell = maps.reference_cell;
         for (const auto &cell : mesh.active_cell_iterators())
@@ -119,7 +124,20 @@ namespace Nacre
         foot.distance = foot.position.distance(target);
         foot.normal   = cross_product_3d(a[0], a[1]);
         foot.normal /= foot.normal.norm();
-        foot.size = sizes_[number];
+        foot.size        = sizes_[number];
+        foot.at_boundary = is_at_boundary(cell, unit);
+        return foot;
+      }
+
+      /** A cell may touch the boundary with a vertex only. */
+      bool
+      is_at_boundary(const CellMaps::Cell &cell, const Point<dim> &unit) const
+      {
+        const ReferenceCell &reference_cell = maps_.reference_cell;
+        for (const unsigned int v : cell->vertex_indices())
+          if (boundary_vertices_.count(cell->vertex_index(v)) == 1 &&
+              unit.distance(reference_cell.template vertex<dim>(v)) < 1e-10)
+            return true;
         for (const unsigned int f : cell->face_indices())
           if (cell->at_boundary(f))
             {
@@ -130,14 +148,15 @@ namespace Nacre
               const Tensor<1, dim> face = corner(1) - corner(0);
               const Tensor<1, dim> to   = unit - corner(0);
               if (std::abs(face[0] * to[1] - face[1] * to[0]) < 1e-10)
-                foot.at_boundary = true;
+                return true;
             }
-        return foot;
+        return false;
       }
 
-      const CellMaps                                             &maps_;
-      std::vector<CellMaps::Cell>                                 cells_;
-      std::vector<double>                                         sizes_;
+      const CellMaps                               &maps_;
+      const std::map<unsigned int, Point<spacedim>> boundary_vertices_;
+      std::vector<CellMaps::Cell>                   cells_;
+      std::vector<double>                           sizes_;
       std::vector<std::pair<BoundingBox<spacedim>, unsigned int>> boxes_;
       RTree<std::pair<BoundingBox<spacedim>, unsigned int>>       tree_;
     };

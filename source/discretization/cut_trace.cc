@@ -69,6 +69,28 @@ namespace Nacre
       }
     };
 
+    /** Several cells may share a tip. */
+    struct TipOfCell
+    {
+      /** Whether the cut does no more than touch the cell there. */
+      bool touches;
+      Tip  tip;
+
+      bool
+      operator<(const TipOfCell &other) const
+      {
+        return touches == other.touches ? tip.cell < other.tip.cell :
+                                          other.touches;
+      }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &touches &tip;
+      }
+    };
+
     /** Of a cell. */
     struct CellTrace
     {
@@ -97,12 +119,13 @@ namespace Nacre
     void
     trace_run(const Cell &cell, const unsigned int cut, CutRun run);
 
+    /** The begin or the end of a cut, which is the only or last event there. */
     void
-    add_tip(const Cell           &cell,
-            const unsigned int    cut,
-            const bool            at_end,
-            const CutEvent       &event,
-            const Tensor<1, dim> &ahead);
+    add_tip(const Cell        &cell,
+            const unsigned int cut,
+            const bool         at_end,
+            const CutEvent    &event,
+            const bool         touches);
 
     /** Add to a face, in the terms of its cell. */
     void
@@ -121,10 +144,9 @@ namespace Nacre
     const double                                      snap_;
     const CutFaces                                    faces_;
     std::vector<CellTrace>                            traces_;
-    /** Candidates; several cells may share a tip. */
-    std::vector<Tip> tips_;
+    std::vector<TipOfCell>                            tips_;
     /** By vertex index. */
-    std::vector<bool> boundary_vertices_;
+    const std::map<unsigned int, Point<spacedim>> boundary_vertices_;
   };
 
 
@@ -140,15 +162,8 @@ namespace Nacre
     , snap_(std::max(cuts.snap, 1e-7))
     , faces_(maps.reference_cell)
     , traces_(mesh.n_active_cells())
-    , boundary_vertices_(mesh.n_vertices(), false)
-  {
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f))
-            for (const unsigned int v : cell->face(f)->vertex_indices())
-              boundary_vertices_[cell->face(f)->vertex_index(v)] = true;
-  }
+    , boundary_vertices_(GridTools::get_all_vertices_at_boundary(mesh))
+  {}
 
 
   void
@@ -168,33 +183,20 @@ namespace Nacre
                               const unsigned int cut,
                               CutRun             run)
   {
-    if (run.size() < 2)
-      return;
-    const CutRun original = run;
     snap_points(run, faces_, snap_);
-    if (run.front().is_begin)
-      add_tip(cell,
-              cut,
-              false,
-              run.front(),
-              original[0].unit - original[1].unit);
     const std::size_t n = run.size();
+    if (run.front().is_begin)
+      add_tip(cell, cut, false, run.front(), n == 1);
     if (run.back().is_end)
-      add_tip(cell,
-              cut,
-              true,
-              run.back(),
-              original[n - 1].unit - original[n - 2].unit);
+      add_tip(cell, cut, true, run.back(), n == 1);
 
     // From place to place on the cell's boundary
     CutChain chain{{run[0].unit}, cut};
     for (std::size_t i = 1; i < n; ++i)
       {
         const CutEvent &a = run[i - 1], &b = run[i];
-        if (are_one_place(a, b))
-          continue;
-        const bool begins_here    = chain.points.size() == 1 && a.faces != 0;
-        const unsigned int common = a.faces & b.faces;
+        const bool      begins_here = chain.points.size() == 1 && a.faces != 0;
+        const unsigned int common   = a.faces & b.faces;
         if (begins_here && common != 0)
           {
             unsigned int f = 0;
@@ -221,7 +223,7 @@ namespace Nacre
   {
     for (const unsigned int v : cell->vertex_indices())
       if (event.unit == maps_.reference_cell.template vertex<dim>(v) &&
-          boundary_vertices_[cell->vertex_index(v)])
+          boundary_vertices_.count(cell->vertex_index(v)) == 1)
         return true;
     for (unsigned int f = 0; f < faces_.size(); ++f)
       if (((event.faces >> f) & 1u) != 0 && cell->at_boundary(f))
@@ -231,22 +233,38 @@ namespace Nacre
 
 
   void
-  CutTrace::Tracer::add_tip(const Cell           &cell,
-                            const unsigned int    cut,
-                            const bool            at_end,
-                            const CutEvent       &event,
-                            const Tensor<1, dim> &ahead)
+  CutTrace::Tracer::add_tip(const Cell        &cell,
+                            const unsigned int cut,
+                            const bool         at_end,
+                            const CutEvent    &event,
+                            const bool         touches)
   {
     if (is_on_boundary(cell, event))
       return;
-    const auto map = [&](const Point<dim> &unit) {
-      return maps_.position(cell, unit);
+    const auto tangents = [&](const CellMaps::Map &of_cells) {
+      const auto map = [&](const Point<dim> &unit) {
+        return of_cells(cell, unit);
+      };
+      return DifferentiatedMap<decltype(map)>{map}.tangents(event.unit);
     };
-    const auto a = DifferentiatedMap<decltype(map)>{map}.tangents(event.unit);
-    Tensor<1, spacedim> direction = ahead[0] * a[0] + ahead[1] * a[1];
+    // The last leg's direction in the reference cell, then in space
+    const CutPath &path = paths_[cut];
+    const auto     ahead =
+      at_end ? path.legs.back().along : -path.legs.front().along;
+    const auto   a = tangents(path.is_in_chart ? maps_.chart : maps_.position);
+    const double a_11 = a[0] * a[0], a_22 = a[1] * a[1], a_12 = a[0] * a[1];
+    const double b_1 = a[0] * ahead, b_2 = a[1] * ahead;
+    const auto   x = tangents(maps_.position);
+    Tensor<1, spacedim> direction =
+      (a_22 * b_1 - a_12 * b_2) * x[0] + (a_11 * b_2 - a_12 * b_1) * x[1];
     direction /= direction.norm();
-    tips_.push_back(
-      {cut, at_end, map(event.unit), direction, cell->id(), event.unit});
+    tips_.push_back({touches,
+                     {cut,
+                      at_end,
+                      maps_.position(cell, event.unit),
+                      direction,
+                      cell->id(),
+                      event.unit}});
   }
 
 
@@ -370,23 +388,25 @@ namespace Nacre
   std::vector<CutTrace::Tip>
   CutTrace::Tracer::tips() const
   {
-    std::map<std::pair<unsigned int, bool>, Tip> lowest;
+    std::map<std::pair<unsigned int, bool>, TipOfCell> lowest;
     for (const auto &tips :
          Utilities::MPI::all_gather(mesh_.get_communicator(), tips_))
-      for (const Tip &tip : tips)
+      for (const TipOfCell &tip : tips)
         {
           const auto found =
-            lowest.emplace(std::make_pair(tip.cut, tip.at_end), tip).first;
-          if (tip.cell < found->second.cell)
+            lowest.emplace(std::make_pair(tip.tip.cut, tip.tip.at_end), tip)
+              .first;
+          if (tip < found->second)
             found->second = tip;
         }
     std::vector<Tip> result;
-    for (const auto &[key, tip] : lowest)
+    for (const auto &[key, of_cell] : lowest)
       {
         // A cut around a closed surface ends where it has begun.
+        const Tip &tip   = of_cell.tip;
         const auto other = lowest.find({key.first, !key.second});
         if (other == lowest.end() ||
-            other->second.position.distance(tip.position) >
+            other->second.tip.position.distance(tip.position) >
               1e-9 * Tensor<1, spacedim>(tip.position).norm())
           result.push_back(tip);
       }

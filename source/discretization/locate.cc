@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/discretization/cell_projection.h>
 #include <nacre/discretization/discretization.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -47,53 +48,6 @@ namespace Nacre
       }
     };
 
-    /**
-     * The unit point of the nearest point to @p target on one cell: projected
-     * Gauss-Newton from @p start.
-     */
-    Point<dim>
-    project(const LocalSurface    &surface,
-            const ReferenceCell   &cell,
-            const Point<spacedim> &target,
-            Point<dim>             start)
-    {
-      for (unsigned int iteration = 0; iteration < 30; ++iteration)
-        {
-          const auto   difference = target - surface.position(start);
-          const auto   a          = surface.tangents(start);
-          const double a_11 = a[0] * a[0], a_22 = a[1] * a[1],
-                       a_12 = a[0] * a[1];
-          const double b_1 = a[0] * difference, b_2 = a[1] * difference;
-          const double det  = a_11 * a_22 - a_12 * a_12;
-          Point<dim>   next = start;
-          next[0] += (a_22 * b_1 - a_12 * b_2) / det;
-          next[1] += (a_11 * b_2 - a_12 * b_1) / det;
-          // Along an active bound the other coordinate moves alone.
-          if (next[0] < 0. || next[0] > 1.)
-            next[1] = start[1] + b_2 / a_22;
-          if (next[1] < 0. || next[1] > 1.)
-            next[0] = start[0] + b_1 / a_11;
-          for (unsigned int alpha = 0; alpha < dim; ++alpha)
-            next[alpha] = std::min(1., std::max(0., next[alpha]));
-          if (cell == ReferenceCells::Triangle && next[0] + next[1] > 1.)
-            {
-              // Along the slanting edge, (1 - s, s).
-              const auto   along = a[1] - a[0];
-              const double s =
-                start[1] +
-                (along * (difference + (start[0] + start[1] - 1.) * a[0])) /
-                  (along * along);
-              next[1] = std::min(1., std::max(0., s));
-              next[0] = 1. - next[1];
-            }
-          const double step = next.distance(start);
-          start             = next;
-          if (step < 1e-14)
-            break;
-        }
-      return start;
-    }
-
     /** The nearest point on one of this rank's cells, or on a part. */
     struct NearCell
     {
@@ -119,11 +73,12 @@ namespace Nacre
                          });
       const LocalSurface surface{fe, nodes};
       NearCell           result;
-      result.part     = part;
-      result.unit     = project(surface,
-                            mesh.element().reference_cell(),
-                            point,
-                            fe.unit_support_point(start - nodes.begin()));
+      result.part = part;
+      result.unit =
+        project_to_cell(surface,
+                        mesh.element().reference_cell(),
+                        point,
+                        fe.unit_support_point(start - nodes.begin()));
       result.position = surface.position(result.unit);
       result.distance = result.position.distance(point);
       const BoundingBox<spacedim> box(nodes);

@@ -23,6 +23,8 @@ namespace Nacre
     /** Whether it is the first, the last point of an open cut. */
     bool is_begin = false;
     bool is_end   = false;
+    /** Whether it has been moved onto a face. */
+    bool is_moved = false;
   };
 
   using CutRun = std::vector<CutEvent>;
@@ -109,7 +111,8 @@ namespace Nacre
   /**
    * Where a cut comes from a face, or goes to it, a point of its own within the
    * distance @p snap from the face moves onto the face: else a sliver would be
-   * beside a cut that runs along an edge but for round-off.
+   * beside a cut that runs along an edge but for round-off. What then goes
+   * there and back is left out.
    */
   void
   snap_points(CutRun &run, const CutFaces &faces, const double snap);
