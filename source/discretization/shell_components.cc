@@ -155,9 +155,11 @@ namespace Nacre
     std::vector<unsigned int> result(first_dofs.size(), 0);
     if (size() == 1)
       return result;
-    std::unordered_map<types::global_dof_index, unsigned int> place;
+    // A node may come more than once.
+    std::unordered_map<types::global_dof_index, std::vector<unsigned int>>
+      places;
     for (unsigned int k = 0; k < first_dofs.size(); ++k)
-      place[first_dofs[k]] = k;
+      places[first_dofs[k]].push_back(k);
     const auto &node_dofs = discretization_.node_dofs();
     std::vector<types::global_dof_index> dofs;
     for (const CellPart &part : discretization_.owned_parts())
@@ -165,9 +167,10 @@ namespace Nacre
         discretization_.get_dof_indices(part, dofs);
         for (unsigned int k = 0; k < dofs.size(); k += spacedim)
           {
-            const auto found = place.find(dofs[node_dofs[k]]);
-            if (found != place.end())
-              result[found->second] = of(part);
+            const auto found = places.find(dofs[node_dofs[k]]);
+            if (found != places.end())
+              for (const unsigned int place : found->second)
+                result[place] = of(part);
           }
       }
     Utilities::MPI::max(result, discretization_.communicator(), result);
