@@ -4,6 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/cell_projection.h>
 #include <nacre/discretization/cut_path.h>
+#include <nacre/problem/midsurface.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -258,6 +259,25 @@ namespace Nacre
       return path;
     }
   } // namespace
+
+
+  CellMaps
+  make_cell_maps(const Midsurface &surface, const ReferenceCell &reference_cell)
+  {
+    CellMaps maps{reference_cell,
+                  [&surface](const CellMaps::Cell &cell, const Point<dim> &x) {
+                    return surface.position(cell, x);
+                  }};
+    if (surface.has_chart())
+      {
+        maps.chart = [&surface](const CellMaps::Cell &cell,
+                                const Point<dim>     &x) {
+          return surface.chart(cell, x);
+        };
+        maps.periods = surface.chart_periods();
+      }
+    return maps;
+  }
 
 
   std::vector<CutPath>

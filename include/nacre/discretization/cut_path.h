@@ -34,6 +34,11 @@ namespace Nacre
     std::array<double, 2> periods{{0., 0.}};
   };
 
+  /** The maps of @p surface, which must live as long as they do. */
+  CellMaps
+  make_cell_maps(const Midsurface    &surface,
+                 const ReferenceCell &reference_cell);
+
   /**
    * The piece of a cut between two of its points: where the surface meets the
    * plane of the chord and of the direction `up`, the mean normal of the
