@@ -211,8 +211,8 @@ def eigenvalues(context):
          "frequencies, relative to the converged ones: nacre's, p = 4, the "
          "finest mesh; theirs: of the lowest from the reference of "
          "doc/stability.md, where there is one",
-         f"CalculiX is asked for {ASKED} load factors, since it leaves out some "
-         "of the lowest where it is asked for fewer",
+         f"CalculiX is asked for {ASKED} load factors, since it leaves out "
+         "some of the lowest where it is asked for fewer",
          "each series ends with its first mesh below 1 %, or its finest",
          "CPU seconds, the least of "
          f"{context.repeat} runs: of nacre's analysis, of CalculiX' program"])
