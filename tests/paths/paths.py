@@ -162,8 +162,8 @@ def all_branches(folder):
 
 @test(1)
 def branch_meets_the_path(folder):
-    """Where the hinged arch's second branch passes through the symmetric path,
-    t turns and the pivots stay. The symmetric path has its bifurcation there."""
+    """Where the hinged arch's branch passes through the symmetric path, t turns
+    and the pivots stay. The symmetric path has its bifurcation there."""
     coarse = {"Study__Degrees": "3", "Study__Name": "case", **NO_FIELDS,
               "Mid-surface__Subdivisions": "4, 1"}
     folder.succeed(HINGED, **coarse, Analysis__Switch_branch="1",
