@@ -35,7 +35,8 @@ def hemisphere(radius, hole):
 
 
 # Edges by the coordinate that is fixed there: planes of symmetry by the
-# direction of their normal, and displacements held; points by (u, v). The
+# direction of their normal, and what is held: displacements 0 to 2, rotations
+# about the axes 3 to 5; points by (u, v). The
 # reference is the Kirchhoff-Love value that the .prm files have as well.
 PROBLEMS = {
     "scordelis_lo": {
@@ -145,9 +146,9 @@ def conditions(problem, numbers, n, m):
             held |= {(number, k) for k in (1, 2, 3)}
             continue
         for direction in directions:
-            k = local(axes[number], direction)[0] if number in axes \
-                else direction
-            held.add((number, k + 1))
+            k = local(axes[number], direction % 3)[0] if number in axes \
+                else direction % 3
+            held.add((number, k + 1 + 3 * (direction // 3)))
     return axes, held
 
 
@@ -166,6 +167,23 @@ def point_forces(problem, numbers, n, m, axes):
         node = numbers[2 * n * u, 2 * m * v]
         k, sign = local(axes[node], direction)
         lines.append(f"{node}, {k + 1}, {sign * value}")
+    return lines
+
+
+def edge_forces(numbers, n, m, axes, edge, direction, total):
+    """A uniform force on an edge of equal cells: Simpson's shares."""
+    along_u = edge[0] == "v"
+    cells = n if along_u else m
+    lines = ["*CLOAD"]
+    for k in range(2 * cells + 1):
+        node = numbers[(k, 2 * m * edge[1]) if along_u else
+                       (2 * n * edge[1], k)]
+        axis, sign = local(axes[node], direction) if node in axes else \
+            (direction, 1.)
+        share = 4. if k % 2 else 1. if k in (0, 2 * cells) else 2.
+        # It reads 20 characters of a number
+        lines.append(f"{node}, {axis + 1}, "
+                     f"{sign * total * share / (6. * cells):.12g}")
     return lines
 
 

@@ -16,7 +16,7 @@ def parse():
     parser = argparse.ArgumentParser(
         prog="benchmarks/run", formatter_class=argparse.RawTextHelpFormatter,
         description="Measure, and write tables and plots.\n\nSections:\n" +
-        "\n".join(f"  {name:10} {function.__doc__}"
+        "\n".join(f"  {name:13} {function.__doc__}"
                   for name, function in SECTIONS.items()))
     parser.add_argument("--only", action="append", default=[],
                         metavar="SECTION[,SECTION...]",

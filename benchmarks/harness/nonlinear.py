@@ -8,8 +8,10 @@ import math
 import pathlib
 import tempfile
 
-from calculix import cylinder, deck, hemisphere, point_forces
-from runs import PROJECT, RunError, find_calculix, measure, number, seconds
+from calculix import (cylinder, deck, edge_forces, hemisphere,
+                      point_forces)
+from runs import (PROJECT, RunError, find_calculix, measure, number, reason,
+                  seconds)
 
 LIMIT = 0.015
 LEVELS = 10
@@ -81,11 +83,8 @@ def step(problem, numbers, n, m, axes):
              "8, 16, 18, 32, 20, 4, , 20"]
     forces = point_forces(problem, numbers, n, m, axes)
     if "edge_force" in problem:
-        forces = ["*CLOAD"]
-        for j in range(2 * m + 1):
-            share = 4. if j % 2 else 1. if j in (0, 2 * m) else 2.
-            forces.append(f"{numbers[2 * n, j]}, 3, "
-                          f"{problem['edge_force'] * share / (6. * m)}")
+        forces = edge_forces(numbers, n, m, axes, ("u", 1), 2,
+                             problem["edge_force"])
     forces[0] += ", AMPLITUDE=RAMP"
     return lines + forces + [
         "*NODE PRINT, NSET=WATCH, GLOBAL=YES, TIME POINTS=LEVELS", "U",
@@ -150,14 +149,6 @@ def deviation(values, reference):
     if len(values) != len(reference):
         return None
     return max(abs(abs(a) / abs(b) - 1.) for a, b in zip(values, reference))
-
-
-def reason(failure):
-    """The line of a failed program that says why."""
-    lines = [line.strip() for line in str(failure).splitlines()
-             if line.strip()]
-    errors = [line for line in lines if "error" in line.lower()]
-    return (errors or lines)[-1][:60]
 
 
 def series_rows(label, meshes, run_mesh, reference):

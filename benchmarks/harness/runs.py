@@ -18,6 +18,14 @@ class RunError(Exception):
     """A program failed; the text says how."""
 
 
+def reason(failure):
+    """The line of a failed program that says why."""
+    lines = [line.strip() for line in str(failure).splitlines()
+             if line.strip()]
+    errors = [line for line in lines if "error" in line.lower()]
+    return (errors or lines)[-1][:60]
+
+
 class Measurement:
     """Wall and CPU seconds of a program and its children."""
 

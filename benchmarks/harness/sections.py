@@ -6,6 +6,7 @@ import tempfile
 
 import paper
 from calculix import PROBLEMS, CalculiX
+from eigenvalues import eigenvalues
 from nonlinear import nonlinear
 from runs import (PROJECT, RunError, build_empty_program, find_calculix,
                   measure, seconds)
@@ -430,4 +431,5 @@ def startup(context):
 
 SECTIONS = {function.__name__: function
             for function in (peers, assembly, direct, multigrid, scaling,
-                             extrapolation, adaptive, startup, nonlinear)}
+                             extrapolation, adaptive, startup, nonlinear,
+                             eigenvalues)}

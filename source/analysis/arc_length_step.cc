@@ -108,6 +108,9 @@ namespace Nacre
         return step;
       }
     du.add(dt, velocity);
+    end_rate_ = 1. / slope;
+    if (is_first_)
+      start_rate_ = end_rate_;
     if (is_first_ && distance_ != 0.)
       {
         predictor_ = du;

@@ -79,8 +79,9 @@ namespace Nacre
             continue;
           }
         const PathState before(state);
+        const int       turn = attempt.turn;
         accept(std::move(attempt), end, state);
-        const bool switches = look_for_point(before, callbacks, state);
+        const bool switches = look_for_point(before, turn, callbacks, state);
         if (!switches && callbacks.pauses && callbacks.pauses(state))
           return "";
         system_.set_time(state.time);
@@ -140,26 +141,30 @@ namespace Nacre
 
   bool
   EquilibriumCurve::look_for_point(const PathState     &before,
+                                   const int            turn,
                                    const PathCallbacks &callbacks,
                                    PathState           &after)
   {
     // On a new branch the number changes at the point that it leaves.
     if (before.begins_branch ||
-        before.n_negative_pivots == after.n_negative_pivots)
+        (before.n_negative_pivots == after.n_negative_pivots && turn == 0))
       return false;
-    PathPoint point = find_point(before, after);
-    ++after.n_points;
-    if (point.is_bifurcation())
-      ++after.n_bifurcations;
-    point.state.n_points       = after.n_points;
-    point.state.n_bifurcations = after.n_bifurcations;
-    const int sign             = callbacks.observe_point(point);
-    if (sign == 0)
-      return false;
-    after                   = point.state;
-    after.n_negative_pivots = point.n_after;
-    begin_branch(sign * static_cast<int>(after.n_bifurcations), after);
-    return true;
+    for (PathPoint &point : find_points(before, after, turn))
+      {
+        ++after.n_points;
+        if (point.is_bifurcation())
+          ++after.n_bifurcations;
+        point.state.n_points       = after.n_points;
+        point.state.n_bifurcations = after.n_bifurcations;
+        const int sign             = callbacks.observe_point(point);
+        if (sign == 0)
+          continue;
+        after                   = point.state;
+        after.n_negative_pivots = point.n_after;
+        begin_branch(sign * static_cast<int>(after.n_bifurcations), after);
+        return true;
+      }
+    return false;
   }
 
   void
@@ -178,6 +183,15 @@ namespace Nacre
   EquilibriumCurve::settle(PathState                         &state,
                            const std::optional<unsigned int> &max_iterations)
   {
+    double rate = 0.;
+    return settle(state, max_iterations, rate);
+  }
+
+  std::string
+  EquilibriumCurve::settle(PathState                         &state,
+                           const std::optional<unsigned int> &max_iterations,
+                           double                            &rate)
+  {
     PathAttempt attempt;
     if (state.motion.v.l2_norm() == 0.)
       attempt =
@@ -191,6 +205,7 @@ namespace Nacre
         step.go_to_plane(state.motion.v, 0.);
         attempt          = {step.solve(newton), state.motion};
         attempt.motion.u = step.displacement();
+        rate             = step.end_rate();
         if (attempt.result.converged)
           state.time = step.time();
       }
@@ -264,7 +279,8 @@ namespace Nacre
     next *=
       (speed > 0. ? speed : step.predictor().l2_norm() / state.next_step) /
       next.l2_norm();
-    end = step.time();
+    end          = step.time();
+    attempt.turn = step.turn();
     attempt.check(system_, false, &state);
     return attempt;
   }
@@ -285,10 +301,9 @@ namespace Nacre
   std::optional<double>
   EquilibriumCurve::Bracket::crossing() const
   {
-    if (!low_eigenvalue || !high_eigenvalue ||
-        !(*low_eigenvalue * *high_eigenvalue < 0.))
+    if (!low_value || !high_value || !(*low_value * *high_value < 0.))
       return {};
-    return *low_eigenvalue / (*low_eigenvalue - *high_eigenvalue);
+    return *low_value / (*low_value - *high_value);
   }
 
   bool
@@ -303,29 +318,41 @@ namespace Nacre
     for (const double place : {share, 0.5 * share, 0.5 + 0.5 * share})
       {
         PathState trial = interpolate(bracket.low, bracket.high, place, normal);
-        if (!settle(trial, 8).empty())
+        double    value = 0.;
+        if (!settle(trial, 8, value).empty())
           continue;
-        const double eigenvalue = system_.improve_mode(mass, 6, mode);
-        const bool   is_before =
-          trial.n_negative_pivots == bracket.low.n_negative_pivots;
-        (is_before ? bracket.low : bracket.high) = trial;
-        (is_before ? bracket.low_eigenvalue : bracket.high_eigenvalue) =
-          eigenvalue;
+        if (bracket.turn == 0)
+          value = system_.improve_mode(mass, 6, mode);
+        // Near the point itself pivots are round-off.
+        else if (bracket.size > 0.02 &&
+                 trial.n_negative_pivots != bracket.low.n_negative_pivots)
+          {
+            bracket.between = trial;
+            return false;
+          }
+        const bool is_before =
+          bracket.turn == 0 ?
+            trial.n_negative_pivots == bracket.low.n_negative_pivots :
+            bracket.turn * value > 0.;
+        (is_before ? bracket.low : bracket.high)             = trial;
+        (is_before ? bracket.low_value : bracket.high_value) = value;
         bracket.size *= is_before ? 1. - place : place;
         return true;
       }
     return false;
   }
 
-  void
-  EquilibriumCurve::narrow(const PathState &before, PathPoint &point)
+  std::optional<PathState>
+  EquilibriumCurve::narrow(const PathState &before,
+                           const int        turn,
+                           PathPoint       &point)
   {
     // All planes are normal to the step, so that states don't overtake.
     Vector normal(point.state.motion.u);
     normal -= before.motion.u;
     const MassTerms       mass(system_.discretization());
     Vector                mode = any_mode();
-    Bracket               bracket{before, point.state};
+    Bracket               bracket{before, point.state, turn};
     std::optional<double> crossing, time;
     bool                  is_found = false;
     for (unsigned int k = 0; k < 40 && !is_found; ++k)
@@ -338,7 +365,7 @@ namespace Nacre
           break;
         const PathState &low = bracket.low, &high = bracket.high;
         const double     scale =
-          std::max(std::abs(low.time), std::abs(parameters_.time_step));
+          std::max(std::abs(low.time), parameters_.time_step);
         is_found = std::abs(high.time - low.time) <= 1e-6 * scale &&
                    bracket.size <= 1e-4;
         crossing = bracket.crossing();
@@ -349,20 +376,24 @@ namespace Nacre
         is_found = is_found || (std::abs(*time - last) <= 2e-7 * scale &&
                                 bracket.size <= 1e-2);
       }
+    if (bracket.between)
+      return bracket.between;
     // Not at the crossing itself, where the tangent would be singular.
     place(bracket, std::min(crossing.value_or(1.) + 1e-4, 1.), normal, point);
     const bool is_limit =
-      rises(bracket.low, normal) != rises(bracket.high, normal);
-    if (!crossing)
+      turn == 0 && rises(bracket.low, normal) != rises(bracket.high, normal);
+    if (!crossing || turn != 0)
       system_.improve_mode(mass, 10, mode);
     const unsigned int n_changes = std::max(point.n_before, point.n_after) -
                                    std::min(point.n_before, point.n_after);
-    point.kind = !is_limit      ? "bifurcation" :
+    point.kind = turn != 0      ? "bifurcation of another path" :
+                 !is_limit      ? "bifurcation" :
                  n_changes == 1 ? "limit" :
                                   "limit and bifurcation";
     if (!is_found)
       point.kind += " (not pinpointed)";
     point.state.motion.a = scaled_mode(mode);
+    return {};
   }
 
   void
@@ -373,8 +404,7 @@ namespace Nacre
   {
     PathState state = interpolate(bracket.low, bracket.high, crossing, normal);
     PathState exact(state);
-    const double scale =
-      std::max(std::abs(state.time), std::abs(parameters_.time_step));
+    const double scale = std::max(std::abs(state.time), parameters_.time_step);
     if (settle(exact, 5).empty() &&
         std::abs(exact.time - state.time) <=
           std::max(1e-5 * scale,
@@ -387,8 +417,10 @@ namespace Nacre
     point.state.load_factor = system_.load_factor();
   }
 
-  PathPoint
-  EquilibriumCurve::find_point(const PathState &before, const PathState &after)
+  std::vector<PathPoint>
+  EquilibriumCurve::find_points(const PathState &before,
+                                const PathState &after,
+                                const int        turn)
   {
     PathPoint point;
     point.n_before = before.n_negative_pivots;
@@ -396,8 +428,14 @@ namespace Nacre
     point.state    = after;
     // The point lies before what the step has reached.
     point.state.n_controls = before.n_controls;
-    narrow(before, point);
-    return point;
+    const auto between =
+      narrow(before, point.n_before == point.n_after ? turn : 0, point);
+    if (!between)
+      return {point};
+    auto       points = find_points(before, *between, 0);
+    const auto others = find_points(*between, after, 0);
+    points.insert(points.end(), others.begin(), others.end());
+    return points;
   }
 
   EquilibriumCurve::Vector

@@ -14,6 +14,7 @@ namespace Nacre
       {PrestressKind::none, "none"},
       {PrestressKind::membrane_force, "membrane force"},
       {PrestressKind::linear, "linear"},
+      {PrestressKind::forces_and_moments, "forces and moments"},
       {PrestressKind::tangent, "tangent"}};
     return table;
   }
@@ -48,7 +49,8 @@ namespace Nacre
       "What the stiffness takes from the state before buckling, or of the "
       "vibrating shell: none; membrane force: the geometric stiffness of "
       "'Membrane force'; linear: that of the membrane forces that the loads "
-      "make in a linear analysis; tangent: the derivative of the tangent of "
+      "make in a linear analysis; forces and moments: with their moments; "
+      "tangent: the derivative of the tangent of "
       "finite rotations along the linear solution, which adds moments and "
       "displacements; default: linear for buckling, none for vibration. "
       "Following pressures add their load stiffness in all of them but none. "
@@ -135,7 +137,8 @@ namespace Nacre
       is_buckling ? PrestressKind::linear : PrestressKind::none);
     AssertThrow(!is_buckling || prestress != PrestressKind::none,
                 ExcMessage("Analysis/Prestress: Type = buckling needs one; "
-                           "choose linear, tangent or membrane force."));
+                           "choose linear, forces and moments, tangent or "
+                           "membrane force."));
     AssertThrow(prestress == PrestressKind::membrane_force ||
                   Text::trim(membrane_force_text_).empty(),
                 ExcMessage(

@@ -176,6 +176,7 @@ namespace Nacre
             add_load_stiffness(instant, factor, matrix);
             break;
           }
+        case PrestressKind::forces_and_moments:
         case PrestressKind::tangent:
           add_tangent_derivative(u, time, factor, matrix);
           break;
@@ -274,8 +275,13 @@ namespace Nacre
     if (gradient == 0. && !model_.section.has_initial_strain())
       return;
     ShellParts parts(model_);
-    parts.kinematics.model   = KinematicsModel::finite;
-    parts.kinematics.tangent = TangentType::consistent;
+    parts.kinematics.model = KinematicsModel::finite;
+    // The stress part vanishes at rest: its derivative is that of the forces
+    // and moments, times the second variations of the strains at rest.
+    parts.kinematics.tangent =
+      options_.prestress == PrestressKind::forces_and_moments ?
+        TangentType::stress :
+        TangentType::consistent;
     const Assembly finite(discretization_, parts);
     const Instant  instant = model_.at(time);
     differentiate(

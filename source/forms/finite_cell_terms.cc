@@ -44,8 +44,10 @@ namespace Nacre
 
   FiniteCellTerms::FiniteCellTerms(const Discretization &discretization,
                                    const SectionLaw     &section,
-                                   const MembraneStrain  membrane_strain)
+                                   const MembraneStrain  membrane_strain,
+                                   const TangentType     tangent_type)
     : section_(section)
+    , is_stress_only_(tangent_type == TangentType::stress)
     , full_points_(discretization,
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied,
@@ -178,7 +180,8 @@ namespace Nacre
       {
         if (points.bends)
           fill_bending_rows(points, q);
-        fill_stress_rows(points, q);
+        if (!is_stress_only_)
+          fill_stress_rows(points, q);
       }
     add_products(points, terms);
   }

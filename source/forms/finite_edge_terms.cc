@@ -14,9 +14,10 @@ namespace Nacre
   } // namespace
 
   FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,
-                                   const bool        limits_gap)
+                                   const TangentType tangent_type)
     : section_(section)
-    , limits_gap_(limits_gap)
+    , limits_gap_(tangent_type == TangentType::symmetric)
+    , is_stress_only_(tangent_type == TangentType::stress)
   {}
 
   void
@@ -214,9 +215,10 @@ namespace Nacre
                                               point.coupling[v],
                                               membrane_row_.data());
     // d{lambda m_nn}, and dlambda = lambda nu . v_n
-    const double       mean = point_.fluxes().consistency * point.mean_factor;
-    const double       g    = point_.moment_force(side) * point.lambda;
-    const unsigned int row  = edge.n_points() * (1 + side) + q;
+    const double mean =
+      is_stress_only_ ? 0. : point_.fluxes().consistency * point.mean_factor;
+    const double       g   = point_.moment_force(side) * point.lambda;
+    const unsigned int row = edge.n_points() * (1 + side) + q;
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         {
@@ -265,7 +267,7 @@ namespace Nacre
         const double           mean    = point_.side(s).mean_factor;
         const unsigned int     n_nodes = rows[0].size();
         std::array<Vector3, 3> trial;
-        for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int k = 0; k < 3 && !is_stress_only_; ++k)
           trial[k] = 0.5 * fluxes.penalty * jump[k] +
                      fluxes.consistency * mean * moment[k];
         for (unsigned int b = 0; b < n_nodes; ++b)

@@ -269,9 +269,11 @@ namespace Nacre
           {
             const std::string file  = Text::unquoted(quoted);
             const std::string where = section + name + ", '" + file + "'";
-            double     factor = evaluate_number(entry.value, where, constants);
-            PointField field(read_on_all(file, where, communicator, folder),
-                             where);
+            double factor = evaluate_number(entry.value, where, constants);
+            const std::string content =
+              read_on_all(file, where, communicator, folder);
+            PointField field(content, where);
+            result->content += content;
             if (are_modes)
               {
                 AssertThrow(constants.count("h") == 1,

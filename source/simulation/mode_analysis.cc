@@ -87,12 +87,13 @@ namespace Nacre
     const PathParameters &path = problem_.path;
     if (path.start_from.empty())
       return;
-    PathState state = load_start(path,
-                                 current_problem(communicator_),
-                                 shell.discretization(),
-                                 mode_files(recorder).file(""),
-                                 log_)
-                        .state;
+    PathState state =
+      load_start(path,
+                 current_problem(communicator_, problem_.model.midsurface),
+                 shell.discretization(),
+                 mode_files(recorder).file(""),
+                 log_)
+        .state;
     ShellSystem system(shell.discretization(),
                        shell.assembly(),
                        problem_.model,

@@ -205,7 +205,7 @@ namespace Nacre
     const std::string base = own_options(recorder).file("");
     Checkpoint        checkpoint(shell.discretization(), base);
     load_state(shell,
-               current_problem(communicator_),
+               current_problem(communicator_, problem_.model.midsurface),
                base,
                restart,
                checkpoint);
@@ -283,7 +283,8 @@ namespace Nacre
                  PathMonitor         &monitor,
                  const Recorder      &recorder)
   {
-    const ProblemRecord problem = current_problem(communicator_);
+    const ProblemRecord problem =
+      current_problem(communicator_, problem_.model.midsurface);
     if (branch != 0 && !restart)
       {
         const PathState state = branch_start(branch, own_options(recorder));

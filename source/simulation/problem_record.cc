@@ -19,6 +19,9 @@ namespace Nacre
   namespace
   {
     const std::string mesh_file_name = "Mid-surface/file/File name";
+    /** No parameter, but what it names. */
+    const std::string imperfection_files =
+      "Mid-surface/Imperfection/(content of the files)";
 
     /**
      * Parameters, and sections with their '/', that a path may go on with
@@ -155,7 +158,7 @@ namespace Nacre
 
 
   ProblemRecord
-  current_problem(const MPI_Comm communicator)
+  current_problem(const MPI_Comm communicator, const Midsurface &midsurface)
   {
     ProblemRecord record;
     record.n_ranks    = Utilities::MPI::n_mpi_processes(communicator);
@@ -170,6 +173,9 @@ namespace Nacre
                                     "",
                                     mesh_file_name)
                       .content);
+    const std::string imperfection = midsurface.imperfection_files();
+    if (!imperfection.empty())
+      record.parameters[imperfection_files] = fingerprint(imperfection);
     return record;
   }
 

@@ -52,7 +52,8 @@ namespace Nacre
     if (load_factor.is_constant())
       return;
     std::string found;
-    for (const auto *const section : {"Loads", "Boundary conditions"})
+    for (const auto *const section :
+         {"Loads", "Boundary conditions", "Section/Initial strain"})
       if (mentions(problem, section, "t"))
         found += (found.empty() ? "'" : " and '") + std::string(section) + "'";
     if (found.empty())

@@ -16,7 +16,8 @@ import sys
 import tempfile
 
 FILES = ("peers_meshes", "peers", "assembly", "direct", "multigrid",
-         "multigrid_iterations", "multigrid_others", "scaling", "nonlinear")
+         "multigrid_iterations", "multigrid_others", "scaling", "nonlinear",
+         "eigenvalues")
 
 
 def rows(file):
@@ -50,6 +51,11 @@ def check_results(folder):
           f"meshes: {meshes}")
     check(all(float(row["error"]) < 1e-4 for row in meshes),
           f"errors: {meshes}")
+    # The last mesh of each series is within 1 % of a plate's three values
+    last = {row["series"]: row for row in rows(folder / "eigenvalues.csv")}
+    for row in last.values():
+        check(float(row["deviation, %"]) < (10. if "CalculiX" in row["series"]
+                                            else 1.), f"eigenvalues: {row}")
     text = (folder / "adaptive" / "hemisphere.md").read_text()
     check("dofs, global" in text, "adaptive: no table")
     ranks = [int(row["ranks"]) for row in rows(folder / "scaling.csv")]
@@ -85,7 +91,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         command = [run, "--quick", "--nacre", nacre, "--output", folder,
                    "--only", "peers,assembly,direct", "--only",
-                   "multigrid,scaling,adaptive,nonlinear"]
+                   "multigrid,scaling,adaptive,nonlinear,eigenvalues"]
         done = subprocess.run(command, capture_output=True, text=True,
                               check=False)
         check(done.returncode == 0, done.stdout + done.stderr)

@@ -17,6 +17,7 @@ from runs import check, main, near  # noqa: E402  (found by the line above)
 
 BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
 ARCH = str(BENCHMARKS / "arc_length_arch.prm")
+HINGED = str(BENCHMARKS / "path_arch_hinged.prm")
 STRIP = str(BENCHMARKS / "arc_length_elastica.prm")
 # Semi-analytical: the largest and the smallest load, of 60.
 LARGEST, SMALLEST = 52.580408 / 60., 46.188430 / 60.
@@ -92,6 +93,28 @@ def ends(folder):
 
 
 @test(1)
+def points_of_any_steps(folder):
+    """A point is found to 1e-6 of a step, whatever the steps. One at t = 0
+    almost, of a path that begins downward, has no scale but that of a step."""
+    strip = {**SHORT, "Study__Degrees": "3", "Analysis__Maximum_points": "1",
+             "Analysis__Switch_branch": "none", "Analysis__End_time": "2"}
+
+    def bifurcation(**settings):
+        folder.succeed(STRIP, **dict(strip, **settings))
+        point = folder.rows("strip_points.csv")[0]
+        check(point["kind"] == "bifurcation", f"{point}")
+        return float(point["load_factor"])
+
+    load = bifurcation(Analysis__Time_step="0.9")
+    check_near("other steps", bifurcation(Analysis__Time_step="0.3"), load,
+               5e-7)
+    check_near("downward", bifurcation(Analysis__Time_step="-0.4",
+                                       Analysis__End_time="-2",
+                                       Analysis__Load_factor="0.9999993-t"),
+               load, 5e-7)
+
+
+@test(1)
 def control(folder):
     """The arch is pushed down through both limit points, and back."""
     pushed = {**COARSE, "Analysis__Type": "displacement control",
@@ -135,6 +158,36 @@ def all_branches(folder):
     folder.succeed(STRIP, "--restart", **SHORT, Analysis__Switch_branch="all")
     for name, rows in paths.items():
         check_same(name, folder.rows(f"strip{name}_path.csv"), rows, 1e-12)
+
+
+@test(1)
+def branch_meets_the_path(folder):
+    """Where the hinged arch's branch passes through the symmetric path, t turns
+    and the pivots stay. The symmetric path has its bifurcation there."""
+    coarse = {"Study__Degrees": "3", "Study__Name": "case", **NO_FIELDS,
+              "Mid-surface__Subdivisions": "4, 1"}
+    folder.succeed(HINGED, **coarse, Analysis__Switch_branch="1",
+                   Analysis__Maximum_time_step="0.15",
+                   Analysis__Maximum_points="2")
+    meeting = folder.rows("case_points.csv")[-1]
+    check(meeting["kind"] == "bifurcation of another path"
+          and meeting["branch"] == "1"
+          and meeting["pivots_before"] == meeting["pivots_after"] == "1"
+          and abs(float(meeting["u"])) < 1e-4, f"{meeting}")
+    path = folder.values("case_path.csv", "time")
+    check(path[-1] > float(meeting["time"]) < path[-2], f"no turn: {path}")
+    # From the snapped shape, while the load is reversed
+    folder.succeed(HINGED, **{**coarse, "Study__Name": "snapped"},
+                   Analysis__Type="relaxation", Analysis__Time_step="1",
+                   Analysis__Maximum_time_step="1",
+                   Analysis__Switch_branch="none")
+    folder.succeed(HINGED, **coarse, Analysis__Start_from="output/snapped",
+                   Analysis__Load_factor="1-t", Analysis__End_time="3",
+                   Analysis__Maximum_points="1")
+    point = folder.rows("case_points.csv")[0]
+    check(point["kind"] == "bifurcation" and
+          abs(float(point["load_factor"]) - float(meeting["load_factor"]))
+          < 2e-6, f"{point} and {meeting}")
 
 
 @test(1, 2)

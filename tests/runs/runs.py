@@ -318,6 +318,23 @@ def restart_of_a_mesh_file(folder):
 
 
 @test(1)
+def restart_of_an_imperfection(folder):
+    """The content of its files counts."""
+    bumps = [f"{x / 8} {y / 20} 0 {1e-4 * x * y}" for x in range(9)
+             for y in range(5)]
+    folder.write("bumps.txt", "\n".join(bumps))
+    folder.write("case.prm", SWINGING)
+    imperfect = {"Mid-surface__Imperfection__Points": "bumps.txt: 1"}
+    folder.succeed("case.prm", **imperfect)
+    folder.succeed("case.prm", "--restart", Analysis__End_time="0.06",
+                   **imperfect)
+    folder.write("bumps.txt", "\n".join(bumps).replace("0.0032", "0.0033"))
+    folder.fail("case.prm", "--restart", Analysis__End_time="0.08",
+                **imperfect, expect=("--restart", "Mid-surface/Imperfection/",
+                                     "content"))
+
+
+@test(1)
 def restart_of_an_old_checkpoint(folder):
     folder.write("case.prm", SWINGING)
     folder.succeed("case.prm")
@@ -535,6 +552,11 @@ def warnings_of_paths(folder):
     twice = said(**curved, Analysis__Load_factor="sin(t)",
                  Boundary_conditions__Edges="u=0: clamped; u=1: z = t/100")
     check("'Boundary conditions'" in twice, twice)
+    grown = {"Discretization__Kinematics": "finite",
+             "Section__Initial_strain__Strain": "1e-4*t, 0, 0"}
+    twice = said(**grown)
+    check("'Section/Initial strain'" in twice, twice)
+    check(said(**grown, Analysis__Load_factor="1") == "", "growth once only")
     check(said(**curved, Analysis__Load_factor="1",
                Loads__Force_per_area="0, 0, -q*t") == "", "t once only")
 

@@ -254,6 +254,50 @@ end
                 1e-10);
   }
 
+  VectorField
+  half_square(const unsigned int c)
+  {
+    return [c](const Point<3> &x) {
+      Vector3 u;
+      u[c] = 0.5 * x[0] * x[0];
+      return u;
+    };
+  }
+
+  /**
+   * Of the deflection b x^2/2, whose moment m_11 = -D b does work on the second
+   * variation v,11 . e_1 w,1 = x of kappa_11. The derivative of the tangent has
+   * int -D b x and C b x^3 dA besides.
+   */
+  void
+  forces_and_moments()
+  {
+    Plate plate(PrestressKind::forces_and_moments);
+    plate.model.load_factor = Expression(0.);
+    const double b          = 0.3;
+    const auto   state      = [b](const Point<3> &x) {
+      return Vector3({0., 0., 0.5 * b * x[0] * x[0]});
+    };
+    const double exact = -2. * b * Plate::D;
+    const double found = plate.product(state, half_square(0), half_square(2));
+    check_below("moments times the second variation of curvatures",
+                std::abs(found / exact - 1.),
+                1e-9);
+    // The energy's third derivative along a field u, with jumps of rotations:
+    // three times the work of u's forces and moments on the second variations.
+    const VectorField u = [](const Point<3> &x) {
+      return Vector3({std::sin(x[0] + 2. * x[1]),
+                      std::cos(3. * x[0] - x[1]),
+                      std::sin(2. * x[0]) * std::cos(x[1])});
+    };
+    Plate whole(PrestressKind::tangent);
+    whole.model.load_factor = Expression(0.);
+    const double third      = whole.product(u, u, u) / 3.;
+    check_below("a third of the derivative of the tangent",
+                std::abs(plate.product(u, u, u) / third - 1.),
+                1e-9);
+  }
+
   /**
    * The derivative of the tangent along a tilt s alpha x of the plate: of
    * v . K u = int C s alpha x^2 - D s alpha/(1 + s^2 alpha^2) dA for
@@ -266,18 +310,11 @@ end
     Plate plate(PrestressKind::tangent);
     plate.model.load_factor = Expression(0.);
     const double alpha      = 0.7;
-    const auto   square     = [](const unsigned int c) {
-      return [c](const Point<3> &x) {
-        Vector3 u;
-        u[c] = 0.5 * x[0] * x[0];
-        return u;
-      };
-    };
     const double exact = alpha * (Plate::C * 8. / 3. - Plate::D * Plate::area);
     const double found =
       plate.product(linear_field(Vector3({0., 0., alpha}), Vector3()),
-                    square(0),
-                    square(2));
+                    half_square(0),
+                    half_square(2));
     check_below("derivative of the tangent",
                 std::abs(found / exact - 1.),
                 1e-9);
@@ -297,6 +334,7 @@ main(int argc, char **argv)
     {
       stress_stiffness();
       load_stiffness();
+      forces_and_moments();
       tangent_derivative();
     }
   return n_failures == 0 ? 0 : 1;

@@ -83,6 +83,23 @@ namespace Nacre
       return time_;
     }
 
+    /** dt/ds (time/length^2), s = normal . u of the plane, at the end. */
+    double
+    end_rate() const
+    {
+      return end_rate_;
+    }
+
+    /**
+     * Whether t turns within the step: 1, it rises, then falls; -1, it falls,
+     * then rises; 0, neither, or a step along a mode.
+     */
+    int
+    turn() const
+    {
+      return start_rate_ * end_rate_ < 0. ? (start_rate_ > 0. ? 1 : -1) : 0;
+    }
+
     /** du of the first iteration, or the mode (length). */
     const Vector &
     predictor() const
@@ -110,7 +127,9 @@ namespace Nacre
     Vector u_;
     double time_;
     Vector predictor_;
-    bool   is_first_ = true;
+    bool   is_first_   = true;
+    double start_rate_ = 0.;
+    double end_rate_   = 0.;
   };
 } // namespace Nacre
 

@@ -8,6 +8,7 @@
 #include <nacre/analysis/path_state.h>
 
 #include <optional>
+#include <vector>
 
 namespace Nacre
 {
@@ -104,29 +105,38 @@ namespace Nacre
            PathState           &state) const;
 
     /**
-     * Tell of a point between @p before and @p after, if there is one, and
-     * count it in @p after, which becomes the start of a branch if the callback
-     * says so; returns whether it does.
+     * Tell of the points between @p before and @p after, if there are any, and
+     * count them in @p after, which becomes the start of a branch if the
+     * callback says so; returns whether it does.
+     * @param turn of t in the step between them: PathAttempt::turn
      */
     bool
     look_for_point(const PathState     &before,
+                   const int            turn,
                    const PathCallbacks &callbacks,
                    PathState           &after);
 
-    /** Two states between which stability changes. */
+    /** Two states with a point between them. */
     struct Bracket
     {
       PathState low;
       PathState high;
+      /** Of t, where the point is one of a turn; else 0. */
+      int turn = 0;
       /** Of the share of the step between them. */
       double size = 1.;
-      /** The tangents' smallest eigenvalues there, if known. */
-      std::optional<double> low_eigenvalue  = {};
-      std::optional<double> high_eigenvalue = {};
+      /**
+       * What is zero at the point, if known: the tangents' smallest
+       * eigenvalues, or dt/ds where t turns.
+       */
+      std::optional<double> low_value  = {};
+      std::optional<double> high_value = {};
+      /** Of a turn: a state whose stability is another than that of both. */
+      std::optional<PathState> between = {};
 
       /**
-       * The share of the way from low to high where the smallest eigenvalue
-       * crosses zero by interpolation, if it has changed its sign.
+       * The share of the way from low to high where that crosses zero by
+       * interpolation, if it has changed its sign.
        */
       std::optional<double>
       crossing() const;
@@ -134,10 +144,13 @@ namespace Nacre
 
     /**
      * The point at which stability changes within the step from @p before to
-     * @p after: to 1e-6 of t or of the time step.
+     * @p after: to 1e-6 of t or of the time step. Or that at which t turns; or
+     * the two at which stability changes and changes back.
      */
-    PathPoint
-    find_point(const PathState &before, const PathState &after);
+    std::vector<PathPoint>
+    find_points(const PathState &before,
+                const PathState &after,
+                const int        turn);
 
     /**
      * Narrow down the point between @p before and point.state, which becomes
@@ -147,9 +160,13 @@ namespace Nacre
      * sides: a mesh that lacks the shell's symmetry a little makes another
      * curve of a bifurcation point, with a gap at the point itself, into which
      * no bisection leads.
+     *
+     * Where t turns but stability stays, the smallest eigenvalue touches zero,
+     * and dt/ds crosses it. Returns a state of another stability if there is
+     * one in between: the point is not set then.
      */
-    void
-    narrow(const PathState &before, PathPoint &point);
+    std::optional<PathState>
+    narrow(const PathState &before, const int turn, PathPoint &point);
 
     /**
      * Replace an end of the @p bracket by a state about @p share of the way
@@ -162,6 +179,12 @@ namespace Nacre
           Bracket         &bracket,
           const MassTerms &mass,
           Vector          &mode);
+
+    /** settle(), and dt/ds at the state. */
+    std::string
+    settle(PathState                         &state,
+           const std::optional<unsigned int> &max_iterations,
+           double                            &rate);
 
     /** Take the state at the @p crossing as that of the @p point. */
     void

@@ -18,6 +18,9 @@ namespace Nacre
     membrane_force,
     /** G of the membrane forces of the linear solution. */
     linear,
+    /** The same and the second variation of the bending strains times the
+     * moments of the linear solution, which still leaves out displacements. */
+    forces_and_moments,
     /** The derivative of the tangent of finite rotations along the linear
      * solution: forces, moments and displacements before buckling. */
     tangent

@@ -50,11 +50,16 @@ namespace Nacre
     //@}
   };
 
-  /** A point of a curve of equilibria at which its stability changes. */
+  /**
+   * A point of a curve of equilibria at which its stability changes, or at
+   * which t turns and it doesn't: the curve is a branch there that passes
+   * through the path that it leaves.
+   */
   struct PathPoint
   {
     /**
-     * "limit", "bifurcation", or "limit and bifurcation"; "(not pinpointed)"
+     * "limit", "bifurcation", "limit and bifurcation", or "bifurcation of
+     * another path", where t turns but stability stays; "(not pinpointed)"
      * follows where the state is that after the whole step.
      */
     std::string kind;
@@ -67,10 +72,12 @@ namespace Nacre
      */
     PathState state;
 
+    /** Whether a branch leaves along the mode. */
     bool
     is_bifurcation() const
     {
-      return kind.find("bifurcation") != std::string::npos;
+      return n_before != n_after &&
+             kind.find("bifurcation") != std::string::npos;
     }
   };
 
@@ -98,6 +105,8 @@ namespace Nacre
     NewtonSolver::Result result;
     MotionState          motion;
     EnergyBalance        balance = {};
+    /** ArcLengthStep::turn() */
+    int turn = 0;
 
     /** Make it the end of @p state, at the time that @p system has. */
     void

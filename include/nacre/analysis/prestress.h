@@ -111,7 +111,10 @@ namespace Nacre
                        const double   factor,
                        Matrix        &matrix) const;
 
-    /** Add factor times the derivative of the tangent along @p u. */
+    /**
+     * Add factor times the derivative of the tangent along @p u, or of its
+     * part that forces and moments make, the load stiffness included.
+     */
     void
     add_tangent_derivative(const Vector &u,
                            const double  time,

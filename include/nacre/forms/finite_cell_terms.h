@@ -24,14 +24,16 @@ namespace Nacre
    * where q_g = N,g t and z_g = m^ab (N,ab - Gamma^h_ab N,h) a^g +
    * 1/2 (m : b) a^gh q_h are rows for N e_c. All but the last sum, which is the
    * same for the three components, is X + X^T with X one dense product of eight
-   * rows a point: symmetric by construction.
+   * rows a point: symmetric by construction. TangentType::stress leaves out
+   * the first sum.
    */
   class FiniteCellTerms
   {
   public:
     FiniteCellTerms(const Discretization &discretization,
                     const SectionLaw     &section,
-                    const MembraneStrain  membrane_strain);
+                    const MembraneStrain  membrane_strain,
+                    const TangentType     tangent_type);
 
     const ShellCellValues &
     values() const
@@ -113,6 +115,7 @@ namespace Nacre
     add_membrane_force_stiffness(const CellPoints &points, LocalTerms &terms);
 
     const SectionLaw &section_;
+    const bool        is_stress_only_;
     Instant           instant_;
     CellPoints        full_points_;
     /** p x p points, for reduced integration only. */

@@ -23,12 +23,14 @@ namespace Nacre
    * g = FiniteEdgePoint::moment_force() there is, for each side,
    *
    *   g dlambda M_q + (g dlambda M_q)^T + g lambda c : d2E.
+   *
+   * TangentType::stress leaves out X_q.
    */
   class FiniteEdgeTerms
   {
   public:
-    /** @param limits_gap of FiniteEdgePoint::hessian() */
-    FiniteEdgeTerms(const SectionLaw &section, const bool limits_gap);
+    /** @param tangent_type of FiniteKinematics */
+    FiniteEdgeTerms(const SectionLaw &section, const TangentType tangent_type);
 
     /** Of initial strains. */
     void
@@ -132,6 +134,7 @@ namespace Nacre
 
     const SectionLaw                  &section_;
     const bool                         limits_gap_;
+    const bool                         is_stress_only_;
     FiniteEdgePoint<double>            point_;
     std::array<NodeVectors<double>, 2> u_;
     NodeVectors<double>                force_;

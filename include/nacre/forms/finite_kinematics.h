@@ -20,14 +20,15 @@ namespace Nacre
     /**
      * @param tangent_type consistent: the exact Hessian; symmetric: the same
      *   but for edges far from their prescribed rotation, which Newton's method
-     *   then reaches from further away (FiniteEdgePoint::hessian())
+     *   then reaches from further away (FiniteEdgePoint::hessian()); stress:
+     *   the part of the Hessian that is linear in the forces and moments
      */
     FiniteKinematics(const Discretization &discretization,
                      const SectionLaw     &section,
                      const MembraneStrain  membrane_strain,
                      const TangentType     tangent_type)
-      : cell_terms_(discretization, section, membrane_strain)
-      , edge_terms_(section, tangent_type == TangentType::symmetric)
+      : cell_terms_(discretization, section, membrane_strain, tangent_type)
+      , edge_terms_(section, tangent_type)
     {}
 
     std::unique_ptr<Kinematics>

@@ -66,6 +66,8 @@ namespace Nacre
     VectorExpression displacement;
     /** With the factors of their values. */
     std::vector<std::pair<PointField, double>> fields;
+    /** The content of their files, one after the other. */
+    std::string content;
 
     /** The displacement (length) of the point @p x with the normal @p t0. */
     Tensor<1, 3>

@@ -73,7 +73,13 @@ namespace Nacre
      * co-rotational bending forces are no exact gradient. The solvers of
      * LinearSolver read one triangle and can't take it; it serves comparisons.
      */
-    consistent
+    consistent,
+    /**
+     * Of finite rotations only, and no parameter's value: the part of the
+     * Hessian that the forces and moments of the state make, times the second
+     * variations of the strains; without that of the section's stiffness.
+     */
+    stress
   };
 
   const Selection<TangentType> &selection(TangentType);

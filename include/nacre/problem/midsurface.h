@@ -76,6 +76,13 @@ namespace Nacre
     void
     set_imperfection(std::unique_ptr<const Imperfection> imperfection);
 
+    /** The content of the files of the imperfection; empty without any. */
+    std::string
+    imperfection_files() const
+    {
+      return imperfection_ == nullptr ? "" : imperfection_->content;
+    }
+
     /**
      * phi0 (length) at the point @p unit of the reference cell of @p cell, on
      * the exact surface, with its imperfection.

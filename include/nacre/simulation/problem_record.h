@@ -4,6 +4,8 @@
 #ifndef nacre_simulation_problem_record_h
 #define nacre_simulation_problem_record_h
 
+#include <nacre/problem/midsurface.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <map>
@@ -17,7 +19,10 @@ namespace Nacre
    */
   struct ProblemRecord
   {
-    /** Texts by "Section/Parameter". */
+    /**
+     * Texts by "Section/Parameter", and the fingerprint of the content of an
+     * imperfection's files.
+     */
     std::map<std::string, std::string> parameters;
     /** The fingerprint of the mesh file's content; empty without one. */
     std::string  mesh_file;
@@ -32,11 +37,11 @@ namespace Nacre
   };
 
   /**
-   * The record of the parameters in use, which must have been prepared: then
-   * the name of a mesh file is complete. Collective.
+   * The record of the parameters in use, of which @p midsurface has been made:
+   * then the name of a mesh file is complete. Collective.
    */
   ProblemRecord
-  current_problem(const MPI_Comm communicator);
+  current_problem(const MPI_Comm communicator, const Midsurface &midsurface);
 
   /**
    * What makes @p now another problem than @p then: "Section/Parameter: 'value
