@@ -11,10 +11,11 @@
 namespace Nacre
 {
   /**
-   * Rule on a part of a reference cell: on each of its triangles a collapsed
-   * Gauss rule with 2 @p degree + 1 points a direction, which is exact for
-   * polynomials of the total degree 4 @p degree. The points lie inside the
-   * part, the weights are positive and add up to its area.
+   * Rule on a part of a reference cell: on its triangles, or on convex
+   * quadrilaterals of two of them, Gauss rules with 2 @p degree + 1 points a
+   * direction, which are exact for polynomials of the total degree 4 @p degree.
+   * The points lie inside the part, the weights are positive and add up to its
+   * area.
    */
   Quadrature<dim>
   part_quadrature(const CellPolygon &polygon, const unsigned int degree);
