@@ -104,6 +104,28 @@ namespace Nacre
         (1. + s * dq[0][0]) * (1. + s * dq[1][1]) - s * s * dq[0][1] * dq[1][0];
     }
 
+    /** r and theta in the tangent plane of the tip. */
+    std::pair<double, double>
+    polar_coordinates(const CrackTip &tip,
+                      const double    side,
+                      const Point<3> &point)
+    {
+      const Tensor<1, 3> d = point - tip.position;
+      const double       x = d * tip.axes[0], y = d * tip.axes[1];
+      double             theta = std::atan2(y, x);
+      if (x < 0. && y * side < 0.)
+        theta += (side > 0. ? 2. : -2.) * numbers::PI;
+      return {std::hypot(x, y), theta};
+    }
+
+    /** The vector with the components along the axes of the tip. */
+    Tensor<1, 3>
+    in_space(const CrackTip &tip, const Tensor<1, 3> &components)
+    {
+      return components[0] * tip.axes[0] + components[1] * tip.axes[1] +
+             components[2] * tip.axes[2];
+    }
+
     Voigt<>
     bending_strain(const SurfaceFrame<>    &frame,
                    const VectorDerivatives &u,
@@ -176,38 +198,38 @@ namespace Nacre
     return extension.q[0] * u.first[0] + extension.q[1] * u.first[1];
   }
 
+  Tensor<1, 3>
+  williams_value(const WilliamsField &field,
+                 const CrackTip      &tip,
+                 const double         side,
+                 const Point<3>      &point)
+  {
+    const auto [r, theta] = polar_coordinates(tip, side, point);
+    return in_space(tip, field.value(r, theta));
+  }
+
   VectorDerivatives
   williams_derivatives(const WilliamsField &field,
                        const CrackTip      &tip,
                        const double         side,
                        const SurfacePatch  &surface)
   {
-    const Tensor<1, 3> d = surface.position - tip.position;
-    const double       x = d * tip.axes[0], y = d * tip.axes[1];
-    const double       r     = std::hypot(x, y);
-    double             theta = std::atan2(y, x);
-    if (x < 0. && y * side < 0.)
-      theta += (side > 0. ? 2. : -2.) * numbers::PI;
-
-    const auto in_space = [&](const Tensor<1, 3> &components) {
-      return components[0] * tip.axes[0] + components[1] * tip.axes[1] +
-             components[2] * tip.axes[2];
-    };
-    const auto gradient = field.gradient(r, theta);
-    const auto hessian  = field.hessian(r, theta);
+    const auto [r, theta] = polar_coordinates(tip, side, surface.position);
+    const auto gradient   = field.gradient(r, theta);
+    const auto hessian    = field.hessian(r, theta);
 
     VectorDerivatives result;
     const auto       &position = surface.derivatives;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        const Tensor<1, 3> along = in_space(gradient[i]);
+        const Tensor<1, 3> along = in_space(tip, gradient[i]);
         for (unsigned int a = 0; a < 2; ++a)
           result.first[a] += (tip.axes[i] * position.first[a]) * along;
         for (unsigned int v = 0; v < 3; ++v)
           result.second[v] += (tip.axes[i] * position.second[v]) * along;
         for (unsigned int j = 0; j < 2; ++j)
           {
-            const Tensor<1, 3> second = in_space(hessian[pair_of(i, j)]);
+            const Tensor<1, 3> second = in_space(tip, hessian[pair_of(i, j)]);
             for (unsigned int v = 0; v < 3; ++v)
               result.second[v] += (tip.axes[i] * position.first[pairs[v][0]]) *
                                   (tip.axes[j] * position.first[pairs[v][1]]) *

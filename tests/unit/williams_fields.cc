@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// The fields at a crack's tip: derivatives, equilibrium, free lips, intensities,
-// and the energy that they release, by an integral over a domain.
+// The fields at a crack's tip: derivatives, equilibrium, free lips,
+// intensities, and the energy that they release, by an integral over a domain.
 
 #include "unit_test.h"
 #include <nacre/mechanics/linear_elastic_section.h>

@@ -80,11 +80,17 @@ namespace Nacre
   carried(const VectorDerivatives &u, const CrackExtension &extension);
 
   /**
-   * The derivatives of a Williams field, whose components are those along the
-   * axes of @p tip, at a point of the surface. @p side is positive on the side
-   * of e_2 and negative on the other: where the crack bends, theta goes on
-   * beyond half a turn.
+   * A Williams field, whose components are those along the axes of @p tip, at
+   * a point of the surface. @p side is positive on the side of e_2 and negative
+   * on the other: where the crack bends, theta goes on beyond half a turn.
    */
+  Tensor<1, 3>
+  williams_value(const WilliamsField &field,
+                 const CrackTip      &tip,
+                 const double         side,
+                 const Point<3>      &point);
+
+  /** Its derivatives. */
   VectorDerivatives
   williams_derivatives(const WilliamsField &field,
                        const CrackTip      &tip,
