@@ -366,6 +366,14 @@ def cracked(width, height, tips, size, growth=1.5, n_equal=4,
     return mesh
 
 
+def cracked_cylinder():
+    """Of the radius 1 about x, the crack half as long as sqrt(h R) for h =
+    R/100 or so."""
+    a = 0.1 / 10.92**0.25
+    return cracked((0., 1.), math.pi, [a], a / 6, 2.2, 3,
+                   lambda u, v: (u, math.sin(v), math.cos(v)))
+
+
 def files(n_cells):
     title = "A quarter of the Scordelis-Lo roof"
     q9, q8 = roof(n_cells, 9), roof(n_cells, 8)
@@ -383,7 +391,8 @@ def files(n_cells):
             "cap_30.msh": gmsh_2(cap(30.)),
             "cap_dynamic.msh": gmsh_2(cap(26.67, radius=22.27)),
             "cracked_plate.msh": gmsh_2(cracked((0., 1.), 1., [0.5], 1 / 16,
-                                                2., 3))}
+                                                2., 3)),
+            "cracked_cylinder.msh": gmsh_2(cracked_cylinder())}
 
 
 def agree(old, new):

@@ -13,7 +13,7 @@ namespace Nacre
   namespace
   {
     /** Radii of the plateau, in cells at the tip. */
-    constexpr double inner_cells = 1., outer_cells = 4.;
+    constexpr double inner_cells = 2., outer_cells = 6.;
 
     CrackPlateau
     parse_radii(const std::string &text,

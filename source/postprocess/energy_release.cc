@@ -4,6 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 #include <nacre/forms/shell_actions.h>
+#include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/crack_points.h>
 #include <nacre/postprocess/energy_release.h>
 
@@ -67,6 +68,43 @@ namespace Nacre
       for (unsigned int k = 0; k < 3; ++k)
         u.second[k] += factor * v.second[k];
       return u;
+    }
+
+    /**
+     * A field @p X in equilibrium in the tangent plane of the tip needs loads
+     * on a curved surface, which do work as u moves with the tip. Per area
+     * (force/length), those at the lips included, it is what the virtual work
+     * of X's membrane forces on v = u,g q^g differs by from that in the plane:
+     *
+     *   eps(X) : A : eps(v) - eps(P X) : A : eps(P v),  P = 1 - e_3 e_3.
+     *
+     * The loads that its moments need are smaller by (h/r)^2.
+     */
+    double
+    held_work(const SectionLaw        &section,
+              const CrackTip          &tip,
+              const SurfacePatch      &surface,
+              const SurfaceFrame<>    &frame,
+              const VectorDerivatives &X,
+              const VectorDerivatives &u,
+              const CrackExtension    &extension)
+    {
+      const auto            &q  = extension.q;
+      const auto            &dq = extension.gradient;
+      std::array<Vector3, 2> v; // v,1 and v,2
+      for (unsigned int a = 0; a < 2; ++a)
+        v[a] = q[a] * u.second[a] + q[1 - a] * u.second[2] +
+               dq[0][a] * u.first[0] + dq[1][a] * u.first[1];
+      const auto in_plane = [&](const std::array<Vector3, 2> &d) {
+        const auto &e_3 = tip.axes[2];
+        return ShellStrain::membrane(frame,
+                                     d[0] - (d[0] * e_3) * e_3,
+                                     d[1] - (d[1] * e_3) * e_3);
+      };
+      const auto A = section.stiffness(frame, surface.position).membrane;
+      return A * ShellStrain::membrane(frame, X.first[0], X.first[1]) *
+               ShellStrain::membrane(frame, v[0], v[1]) -
+             A * in_plane(X.first) * in_plane(v);
     }
 
     /** The force per area of the undeformed surface (force/length^2). */
@@ -317,7 +355,18 @@ namespace Nacre
           points.strains().membrane(q) - membrane_strain(frame, u, is_linear);
         const auto load = surface_load(shell_, surface.position, frame, u);
         if (field != nullptr)
-          add(u, factor, williams_derivatives(*field, tip_, side, surface));
+          {
+            const auto X = williams_derivatives(*field, tip_, side, surface);
+            sum -= points.weight(q) * factor * frame.j0 *
+                   held_work(shell_.model.section,
+                             tip_,
+                             surface,
+                             frame,
+                             X,
+                             u,
+                             extension);
+            add(u, factor, X);
+          }
         sum -=
           points.weight(q) * (energy_change(shell_.section(),
                                             is_linear,

@@ -35,7 +35,7 @@ namespace Nacre
 
     Kind     kind;
     Point<3> tip = {};
-    /** None: one and four cells at the tip. */
+    /** None: two and six cells at the tip. */
     std::optional<CrackPlateau> plateau = {};
     /** The parameter, for messages. */
     std::string where = {};
