@@ -25,6 +25,7 @@ sys.path.insert(0, str(PROJECT / "scripts"))
 import make_meshes  # noqa: E402  (found by the line above)
 
 E, NU, H = 1e3, 0.3, 0.1
+NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U"
 # kind, a, H, F in tension, F in bending: doc/benchmarks/cracked_plates.md
 PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
           ("centre", .5, 1, 1.3337122, 1.1323155),
@@ -68,8 +69,7 @@ class Nacre:
         with open(pathlib.Path(self.folder, "cracks.csv"), newline="",
                   encoding="utf-8") as file:
             row = list(csv.DictReader(file))[-1]
-        return {key: float(value) for key, value in row.items()
-                if key not in ("element", "eta") and value}
+        return {key: float(row[key]) for key in NAMES if key in row}
 
 
 def quantities(tip, radii, names=("K_I", "K_II", "K_M", "K_T")):
@@ -147,8 +147,8 @@ def sizes(nacre):
 def inclined(nacre):
     """Lips in the direction x, the tension turned: K of an infinite plate."""
     head("angle", "K_I", "exact", "K_II", "exact")
-    a, width = 1., 50.
-    mesh = make_meshes.cracked((-width, width), width, [-a, a], a / 50, 1.2)
+    a, width = 1., 30.
+    mesh = make_meshes.cracked((-width, width), width, [-a, a], a / 20, 1.4)
     for degrees in 30, 45, 60:
         beta = math.radians(degrees)
         n, t = math.cos(beta)**2, math.sin(beta) * math.cos(beta)

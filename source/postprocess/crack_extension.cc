@@ -113,7 +113,8 @@ namespace Nacre
       const Tensor<1, 3> d = point - tip.position;
       const double       x = d * tip.axes[0], y = d * tip.axes[1];
       double             theta = std::atan2(y, x);
-      if (x < 0. && y * side < 0.)
+      // At the lips y = 0 is no side.
+      if (x < 0. && theta * side < 0.)
         theta += (side > 0. ? 2. : -2.) * numbers::PI;
       return {std::hypot(x, y), theta};
     }
