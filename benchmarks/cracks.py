@@ -24,7 +24,7 @@ PROJECT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(PROJECT / "scripts"))
 import make_meshes  # noqa: E402  (found by the line above)
 
-E, NU, H = 1e3, 0.3, 0.1
+E, NU, H = 1e6, 0.3, 0.1
 NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U"
 # kind, a, H, F in tension, F in bending: doc/benchmarks/cracked_plates.md
 PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
@@ -78,14 +78,15 @@ def quantities(tip, radii, names=("K_I", "K_II", "K_M", "K_T")):
                      [f"G = energy release rate {of}", "U = energy"])
 
 
-def plate(nacre, kind, a, height, size, load, mesh=None, end=None):
-    """Of a plate of the half width 1 under N = 1 or M = 1."""
+def plate(nacre, kind, a, height, size, load, mesh=None, end=None,
+          names=("K_I", "K_M"), more=None):
+    """Of a plate of the half width 1 under the load (N, M)."""
     mesh = mesh or make_meshes.cracked((0., 1.), height, [a], size, 1.2)
     end = end or a
     settings = {
         "Constants": f"a = {end!r}, N = {load[0]}, M = {load[1]}",
         "Quantities/Quantities": quantities(
-            f"({end!r}, 0, 0)", f"{0.05 * a}, {0.9 * min(a, 1 - a)}"),
+            f"({end!r}, 0, 0)", f"{0.05 * a}, {0.9 * min(a, 1 - a)}", names),
         "Boundary conditions/Edges": "left: symmetry",
         "Boundary conditions/Points":
             f"(1, 0, 0): y = 0, z = 0; (1, {height}, 0): z = 0"}
@@ -94,7 +95,7 @@ def plate(nacre, kind, a, height, size, load, mesh=None, end=None):
         settings["Boundary conditions/Points"] = (
             f"(1, 0, 0): x = 0, y = 0; (1, {height}, 0): x = 0, z = 0; "
             f"(1, -{height}, 0): z = 0; (0, {height}, 0): z = 0")
-    return nacre.run("cracked_plate.prm", mesh, settings)
+    return nacre.run("cracked_plate.prm", mesh, {**settings, **(more or {})})
 
 
 def factors(nacre, kind, a, height, size):
@@ -169,22 +170,31 @@ def inclined(nacre):
 
 def difference(nacre):
     """G beside the change of the energy between two lengths of the crack."""
-    head("load", "G", "-dPi/da")
+    head("load", "10^6 G", "-10^6 dPi/da")
     a, step = .52, .002
 
     def moved(end):
         def position(u, v):
             x = u * end / a if u <= a else 1 - (1 - u) * (1 - end) / (1 - a)
             return x, v, 0.
-        return make_meshes.cracked((0., 1.), 1., [a], a / 50, 1.2,
+        return make_meshes.cracked((0., 1.), 1., [a], a / 30, 1.25,
                                    position=position)
 
-    for name, load in ("tension", (1, 0)), ("bending", (0, 1)):
-        def solve(end, load=load):
-            return plate(nacre, "centre", a, 1., None, load, moved(end), end)
+    # Dead loads: Pi = -U; ends that are held: Pi = U
+    turned = {"Boundary conditions/Edges":
+              "left: symmetry; top, bottom: rotation = 0.5",
+              "Boundary conditions/Points": "(1, 0, 0): y = 0, z = 0",
+              "Discretization/Kinematics": "finite", "Analysis/Type": "static"}
+    for name, load, sign, more in (("tension", (1, 0), 1, {}),
+                                   ("bending", (0, 1), 1, {}),
+                                   ("ends turned by 0.5", (0, 0), -1, turned)):
+        def solve(end, load=load, more=more):
+            return plate(nacre, "centre", a, 1., None, load, moved(end), end,
+                         (), more)
 
         slope = (solve(a + step)["U"] - solve(a - step)["U"]) / (2 * step)
-        line(name, compared(solve(a)["G"], slope), f"{slope:.6g}")
+        line(name, compared(1e6 * solve(a)["G"], 1e6 * sign * slope),
+             f"{1e6 * sign * slope:.6g}")
 
 
 def cylinders(nacre):
@@ -192,16 +202,17 @@ def cylinders(nacre):
     for ratio, shell, a_m, a_b, g in CYLINDERS:
         h = 1 / ratio
         a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
-        mesh = make_meshes.cracked((0., 1.), math.pi, [a], a / 40, 1.3,
+        far = min(16 * a, math.pi)
+        mesh = make_meshes.cracked((0., far), far, [a], a / 20, 1.3,
                                    position=around_x)
         found = nacre.run("cracked_cylinder.prm", mesh, {
-            "Constants": f"R = 1, L = 1, thick = {h!r}, a = {a!r}, N = {h!r}",
+            "Constants": f"R = 1, thick = {h!r}, a = {a!r}, N = {h!r}",
             "Quantities/Quantities": quantities(
-                f"({a!r}, 0, 1)", f"{.1 * a}, {.9 * a}", ("K_I", "K_M"))})
+                f"({a!r}, 0, 1)", f"{.1 * a}, {.5 * a}", ("K_I", "K_M"))})
         root = math.sqrt(math.pi * a)
         line(ratio, shell, a_m, compared(found["K_I"] / root, a_m), a_b,
              compared(6 * found["K_M"] / (h * h * root), a_b), g,
-             compared(found["G"] * E / (h * math.pi * a), g))
+             compared(found["G"] * 1e3 / (h * math.pi * a), g))
 
 
 def around_x(u, v):

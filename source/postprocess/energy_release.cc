@@ -300,13 +300,12 @@ namespace Nacre
         const Tensor<1, 3> d = x - tip_.position;
         const auto at = ", at " + coordinates_of(x) + "; choose smaller radii.";
         AssertThrow(d * tip_.axes[0] < 0. &&
-                      std::abs(d * tip_.axes[1]) < straight * plateau_.outer,
+                      std::abs(d * tip_.axes[1]) < straight * plateau_.outer &&
+                      std::abs(lip.across) < straight,
                     ExcMessage(where_ +
                                "lies another edge of the shell, or "
                                "the crack turns" +
                                at));
-        AssertThrow(std::abs(lip.across) < straight,
-                    ExcMessage(where_ + "the crack isn't straight" + at));
         const auto id      = lip.cell->face(lip.face)->boundary_id();
         const auto support = supports.find(id);
         AssertThrow(

@@ -5,6 +5,7 @@
 #include <nacre/forms/assembly.h>
 #include <nacre/forms/mass_terms.h>
 #include <nacre/postprocess/crack_quantities.h>
+#include <nacre/postprocess/crack_tip.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>
@@ -399,6 +400,9 @@ namespace Nacre
           }
       if (const auto crack = parse_crack_quantity(phrase, constants))
         {
+          quantity.check = [crack](const Discretization &mesh) {
+            find_crack_tip(mesh, crack->tip, crack->where);
+          };
           quantity.evaluate = [crack](const SolvedShell &shell) {
             return evaluate_crack_quantity(shell, *crack);
           };
