@@ -279,7 +279,6 @@ namespace Nacre
                  (slope * length + along * (tangent * curvature) / length) *
                    weight,
                  weight,
-                 velocity.norm(),
                  cross_product_3d(tangent / length,
                                   points[face].strains().values().frame(q).t0) *
                    velocity});

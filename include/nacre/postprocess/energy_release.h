@@ -75,8 +75,8 @@ namespace Nacre
       /** (q^t |x,t|),t times the weight. */
       double divergence;
       double weight;
-      /** eta, and its component out of the lip. */
-      double plateau, across;
+      /** The velocity's component out of the lip. */
+      double across;
     };
 
     /** Call @p function for this rank's cells that may be near to the tip. */
