@@ -205,8 +205,7 @@ namespace Nacre
    *
    *   opening:  sigma_22 = K_I / sqrt(2 pi r)   (K_I: force/length^(3/2))
    *   sliding:  sigma_12 = K_II / sqrt(2 pi r)
-   *   bending:  m_22 = K_M / sqrt(2 pi r)       (K_M: force/length^(1/2)
-   *                                              times length)
+   *   bending:  m_22 = K_M / sqrt(2 pi r)       (K_M: force length^(1/2))
    *   twisting: m_12 = (1 + nu)/(3 + nu) K_T / sqrt(2 pi r),
    *
    * with membrane forces sigma h, and m the moment per length, positive if it

@@ -19,7 +19,7 @@ namespace Nacre
    *
    *   energy release rate of tip (point) [radii INNER, OUTER]
    *
-   * (force), and K_I, K_II (force/length^(3/2)), K_M, K_T (force/length^(1/2))
+   * (force), and K_I, K_II (force/length^(3/2)), K_M, K_T (force length^(1/2))
    * likewise.
    */
   struct CrackQuantity
