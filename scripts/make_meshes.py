@@ -9,8 +9,8 @@
                            write them elsewhere, the roofs with N x N cells
 
 A quarter of the Scordelis-Lo roof, x = (R sin u, v, R cos u), 0 <= u <= 40
-degrees, 0 <= v <= L/2, in several formats, a strip folded twice, and sectors
-of spherical caps.
+degrees, 0 <= v <= L/2, in several formats, a strip folded twice, sectors of
+spherical caps, and plates with slits.
 """
 
 import argparse
@@ -309,6 +309,71 @@ def cap(half_angle, sector=90., radius=1., n=2):
     return mesh
 
 
+def graded(length, size, n_equal, growth):
+    """Distances from 0 to length: n_equal cells of the size or a little more,
+    then each larger by the growth."""
+    result, step = [0.], size
+    while result[-1] < length:
+        result.append(result[-1] + step)
+        if len(result) > n_equal:
+            step *= growth
+    return [x / result[-1] * length for x in result]
+
+
+def around(tips, begin, end, *grading):
+    """Lines from begin to end, graded from the tips, in ascending order."""
+    lines = [tips[0] - x for x in graded(tips[0] - begin, *grading)]
+    for a, b in zip(tips, tips[1:]):
+        half = graded((b - a) / 2, *grading)
+        lines += [a + x for x in half] + [b - x for x in half]
+    lines += [tips[-1] + x for x in graded(end - tips[-1], *grading)]
+    return sorted(set(lines))
+
+
+def cracked(width, height, tips, size, growth=1.5, n_equal=4,
+            position=lambda u, v: (u, v, 0.)):
+    """A sheet begin <= u <= end, |v| <= height with a slit at v = 0, between
+    two tips or from u = begin to one; edges left, right, bottom, top, and the
+    lips lower and upper."""
+    begin, end = width
+    grading = size, n_equal, growth
+    u = around(tips, begin, end, *grading)
+    half = graded(height, *grading)
+    v = [-y for y in half[:0:-1]] + half
+    mesh = grid(u, v, position, ("left", "right", "bottom", "top"), 4)
+
+    first = u.index(tips[0]) if len(tips) == 2 else 0
+    last = u.index(tips[-1])
+    row = (len(half) - 1) * len(u) + 1  # the node at u = begin, v = 0
+    lower = range(row + first, row + last + 1)
+    twins = {}
+    for node in lower:
+        if node != lower[-1] and not (len(tips) == 2 and node == lower[0]):
+            mesh.nodes.append(mesh.nodes[node - 1])
+            twins[node] = len(mesh.nodes)
+
+    def above(nodes):
+        return [twins.get(node, node) for node in nodes]
+
+    n = len(mesh.cells) // 2
+    mesh.cells[n:] = [(name, above(nodes)) for name, nodes in mesh.cells[n:]]
+    for k, (name, nodes) in enumerate(mesh.lines):
+        if min(nodes) == row and max(nodes) > row + last:
+            mesh.lines[k] = name, above(nodes)
+    for name, side in ("lower", list(lower)), ("upper", above(lower)):
+        number = group(mesh.line_groups, name)
+        mesh.lines += [(number, [a, b]) for a, b in zip(side, side[1:])]
+    return mesh
+
+
+def cracked_cylinder():
+    """Of the radius 1 about x, the crack half as long as sqrt(h R) for h =
+    R/100 or so."""
+    a = 0.1 / 10.92**0.25
+    return cracked((0., 1.), math.pi, [a], a / 6, 2.2, 3,
+                   lambda u, v: (u, math.sin(v), math.cos(v)))
+
+
 def files(n_cells):
     title = "A quarter of the Scordelis-Lo roof"
     q9, q8 = roof(n_cells, 9), roof(n_cells, 8)
@@ -324,7 +389,10 @@ def files(n_cells):
             "cap_6.msh": gmsh_2(cap(18.998073)),
             "cap_8.msh": gmsh_2(cap(25.422925, 45.)),
             "cap_30.msh": gmsh_2(cap(30.)),
-            "cap_dynamic.msh": gmsh_2(cap(26.67, radius=22.27))}
+            "cap_dynamic.msh": gmsh_2(cap(26.67, radius=22.27)),
+            "cracked_plate.msh": gmsh_2(cracked((0., 1.), 1., [0.5], 1 / 16,
+                                                2., 3)),
+            "cracked_cylinder.msh": gmsh_2(cracked_cylinder())}
 
 
 def agree(old, new):

@@ -60,8 +60,8 @@ namespace Nacre
                               s * (corners[2] - corners[1]);
           points.push_back(corners[0] + s * (corners[1] - corners[0]) +
                            t * across);
-          weights.push_back(
-            rule.weight(q) * (along[0] * across[1] - along[1] * across[0]));
+          weights.push_back(rule.weight(q) *
+                            (along[0] * across[1] - along[1] * across[0]));
         }
     }
   } // namespace

@@ -172,16 +172,17 @@ namespace Nacre
   void
   ShellCellValues::fill_membrane_rows()
   {
-    const unsigned int *const dofs = discretization_.node_dofs().data();
+    const ShapeTable         &shapes = this->shapes();
+    const unsigned int *const dofs   = discretization_.node_dofs().data();
     for (unsigned int q = 0; q < n_points(); ++q)
       {
         const auto &a_cov  = frames_[q].a_cov;
         double     *row[3] = {&membrane_rows_(3 * q, 0),
                               &membrane_rows_(3 * q + 1, 0),
                               &membrane_rows_(3 * q + 2, 0)};
-        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           {
-            const auto &dN = shapes().gradient(q, a);
+            const auto &dN = shapes.gradient(q, a);
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const unsigned int i = dofs[spacedim * a + c];
@@ -196,18 +197,20 @@ namespace Nacre
   void
   ShellCellValues::fill_tied_membrane_rows()
   {
-    const unsigned int *const dofs = discretization_.node_dofs().data();
+    const MembraneTying      &tying  = this->tying();
+    const ShapeTable         &shapes = tying_shapes();
+    const unsigned int *const dofs   = discretization_.node_dofs().data();
     for (unsigned int k = 0; k < tying_rows_.m(); ++k)
       {
-        const auto &[point, direction] = tying().samples()[k];
+        const auto &[point, direction] = tying.samples()[k];
         const auto &[a_1, a_2]         = tying_frame(point).a_cov;
         double *const row              = &tying_rows_(k, 0);
         // direction . (a_1 N,1, a_2 N,2, a_1 N,2 + a_2 N,1), (3)
         const auto g_1 = direction[0] * a_1 + direction[2] * a_2;
         const auto g_2 = direction[2] * a_1 + direction[1] * a_2;
-        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           {
-            const auto &dN = tying_shapes().gradient(point, a);
+            const auto &dN = shapes.gradient(point, a);
             for (unsigned int c = 0; c < spacedim; ++c)
               row[dofs[spacedim * a + c]] = dN[0] * g_1[c] + dN[1] * g_2[c];
           }
@@ -215,7 +218,7 @@ namespace Nacre
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
         {
-          const auto &weights = tying().weights(q, v);
+          const auto &weights = tying.weights(q, v);
           combine(&tying_rows_(0, 0),
                   weights.data(),
                   weights.size(),
@@ -227,19 +230,20 @@ namespace Nacre
   void
   ShellCellValues::fill_bending_rows()
   {
-    const unsigned int *const dofs = discretization_.node_dofs().data();
+    const ShapeTable         &shapes = this->shapes();
+    const unsigned int *const dofs   = discretization_.node_dofs().data();
     for (unsigned int q = 0; q < n_points(); ++q)
       {
         const auto &t0     = frames_[q].t0;
         double     *row[3] = {&bending_rows_(3 * q, 0),
                               &bending_rows_(3 * q + 1, 0),
                               &bending_rows_(3 * q + 2, 0)};
-        for (unsigned int a = 0; a < shapes().n_nodes(); ++a)
+        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           {
             const auto strain =
               ShellStrain::bending_of_shape_function(frames_[q],
-                                                     shapes().gradient(q, a),
-                                                     shapes().hessian(q, a));
+                                                     shapes.gradient(q, a),
+                                                     shapes.hessian(q, a));
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const unsigned int i = dofs[spacedim * a + c];

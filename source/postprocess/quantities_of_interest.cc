@@ -4,6 +4,8 @@
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/forms/mass_terms.h>
+#include <nacre/postprocess/crack_quantities.h>
+#include <nacre/postprocess/crack_tip.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>
@@ -393,6 +395,16 @@ namespace Nacre
             quantity.goal.is_energy = (kind == "energy");
             return;
           }
+      if (const auto crack = parse_crack_quantity(phrase, constants))
+        {
+          quantity.check = [crack](const Discretization &mesh) {
+            find_crack_tip(mesh, crack->tip, crack->where);
+          };
+          quantity.evaluate = [crack](const SolvedShell &shell) {
+            return evaluate_crack_quantity(shell, *crack);
+          };
+          return;
+        }
       for (const auto &simple : simple_kinds())
         AssertThrow(!phrase.take(simple.name),
                     ExcMessage(phrase.where + ": '" + phrase.text +
@@ -496,7 +508,9 @@ namespace Nacre
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
       "the origin; in buckling load factor NUMBER, in vibration omega NUMBER "
       "(of time) and frequency NUMBER, omega/(2 pi), in both multiplicity "
-      "NUMBER, modes counted from 1. Units: those of the quantity.");
+      "NUMBER, modes counted from 1; energy release rate|K_I|K_II|K_M|K_T of "
+      "tip (point) [radii INNER, OUTER], of a crack. Units: those of the "
+      "quantity.");
     add_parameter("Balance about",
                   balance_text_,
                   "A point '(x, y, z)': the resultants of loads and reactions "
@@ -511,6 +525,8 @@ namespace Nacre
     for (const auto &name : names_of<PointQuantity::Kind>())
       names.push_back(name);
     for (const auto &name : names_of<ExtremeStress::Kind>())
+      names.push_back(name);
+    for (const auto &name : names_of<CrackQuantity::Kind>())
       names.push_back(name);
     for (const auto &kind : ply_kinds())
       names.push_back(kind.first);

@@ -82,9 +82,13 @@ namespace Nacre
   Recorder::check_quantities(const Discretization &mesh) const
   {
     for (const auto &quantity : quantities_.quantities())
-      if (quantity.point)
-        mesh.locate(*quantity.point,
-                    "Quantities/Quantities, '" + quantity.name + "'");
+      {
+        if (quantity.point)
+          mesh.locate(*quantity.point,
+                      "Quantities/Quantities, '" + quantity.name + "'");
+        if (quantity.check)
+          quantity.check(mesh);
+      }
   }
 
   ResultsTable::Row

@@ -54,6 +54,8 @@ namespace Nacre
       std::function<double(const SolvedShell &)> evaluate;
       /** Of the mid-surface, if the quantity is taken at one (length). */
       std::optional<Point<3>> point;
+      /** What throws before a solve if it can't be taken; may be empty. */
+      std::function<void(const Discretization &)> check;
       /** Unknown for quantities that can't be a goal. */
       GoalFunctional goal;
     };

@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Cracks beside references: the tables of doc/benchmarks/cracked_plates.md.
+
+  benchmarks/cracks.py [NAME...]   the tables, in Markdown
+  benchmarks/cracks.py --list      their names
+
+NAME: plates, sizes, inclined, difference, cylinders. The meshes are made for
+each case; prm/fracture/ has the rest.
+"""
+
+import argparse
+import csv
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+PROJECT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PROJECT / "scripts"))
+import make_meshes  # noqa: E402  (found by the line above)
+
+E, NU, H = 1e6, 0.3, 0.1
+NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U"
+# kind, a, H, F in tension, F in bending: doc/benchmarks/cracked_plates.md
+PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
+          ("centre", .5, 1, 1.3337122, 1.1323155),
+          ("centre", .5, 2, 1.1876356, 1.1311982),
+          ("centre", .3, 2, None, 1.0407619),
+          ("centre", .5, .5, 1.967084, None),
+          ("edge", .2, 1, 1.3680397, 1.021464),
+          ("edge", .5, 1, 2.8254653, 1.134243),
+          ("edge", .5, .5, 3.008758, 1.157227)]
+# R/h, shell parameter, A_m, A_b, g
+CYLINDERS = [(100, .5, 1.056193, .084205, 1.116651),
+             (100, 1, 1.197637, .192525, 1.439387),
+             (100, 2, 1.611888, .335721, 2.613119),
+             (1000, .5, 1.056420, .086446, 1.117085),
+             (1000, 1, 1.198208, .194406, 1.440658),
+             (1000, 2, 1.613426, .337019, 2.617783)]
+
+
+class Nacre:
+    def __init__(self, program, folder):
+        self.program, self.folder = program, folder
+
+    def run(self, prm, mesh, settings):
+        """The last row of the table, of a mesh of make_meshes."""
+        path = pathlib.Path(self.folder, "mesh.msh")
+        path.write_text("\n".join(make_meshes.gmsh_2(mesh)) + "\n",
+                        encoding="utf-8")
+        command = [str(self.program), str(PROJECT / "prm/fracture" / prm)]
+        for key, value in {"Study/Output folder": self.folder,
+                           "Study/Name": "cracks", "Study/Write VTU": "false",
+                           "Study/Degrees": "3", "Study/Refinements": "0",
+                           "Mid-surface/file/File name": str(path),
+                           **settings}.items():
+            command += ["--set", f"{key}={value}"]
+        environment = {"OMP_NUM_THREADS": "1", **os.environ}
+        done = subprocess.run(command, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False,
+                              env=environment, stdin=subprocess.DEVNULL)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(command)}\n{done.stdout}")
+        with open(pathlib.Path(self.folder, "cracks.csv"), newline="",
+                  encoding="utf-8") as file:
+            row = list(csv.DictReader(file))[-1]
+        return {key: float(row[key]) for key in NAMES if key in row}
+
+
+def quantities(tip, radii, names=("K_I", "K_II", "K_M", "K_T")):
+    of = f"of tip {tip} radii {radii}"
+    return "; ".join([f"{name} = {name} {of}" for name in names] +
+                     [f"G = energy release rate {of}", "U = energy"])
+
+
+def plate(nacre, kind, a, height, size, load, mesh=None, end=None,
+          names=("K_I", "K_M"), more=None):
+    """Of a plate of the half width 1 under the load (N, M)."""
+    mesh = mesh or make_meshes.cracked((0., 1.), height, [a], size, 1.2)
+    end = end or a
+    settings = {
+        "Constants": f"a = {end!r}, N = {load[0]}, M = {load[1]}",
+        "Quantities/Quantities": quantities(
+            f"({end!r}, 0, 0)", f"{0.05 * a}, {0.9 * min(a, 1 - a)}", names),
+        "Boundary conditions/Edges": "left: symmetry",
+        "Boundary conditions/Points":
+            f"(1, 0, 0): y = 0, z = 0; (1, {height}, 0): z = 0"}
+    if kind == "edge":
+        settings["Boundary conditions/Edges"] = ""
+        settings["Boundary conditions/Points"] = (
+            f"(1, 0, 0): x = 0, y = 0; (1, {height}, 0): x = 0, z = 0; "
+            f"(1, -{height}, 0): z = 0; (0, {height}, 0): z = 0")
+    return nacre.run("cracked_plate.prm", mesh, {**settings, **(more or {})})
+
+
+def factors(nacre, kind, a, height, size):
+    """F of tension from K and from G, and of bending."""
+    root = math.sqrt(math.pi * a)
+    found = plate(nacre, kind, a, height, size, (1, 0))
+    result = [found["K_I"] * H / root,
+              math.sqrt(found["G"] * E * H) / root]
+    stiffness = E * H**3 / (12 * (1 - NU**2)) * (1 - NU) * (3 + NU)
+    found = plate(nacre, kind, a, height, size, (0, 1))
+    return result + [found["K_M"] / root,
+                     math.sqrt(found["G"] * stiffness) / root]
+
+
+def line(*cells):
+    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
+
+
+def head(*names):
+    line(*names)
+    line(*["---"] * len(names))
+
+
+def compared(value, reference):
+    if reference is None:
+        return f"{value:.5f}"
+    return f"{value:.5f} ({100 * (value / reference - 1):+.2f} %)"
+
+
+def plates(nacre):
+    head("crack", "a/W", "H/W", "tension", "from K_I", "from G", "bending",
+         "from K_M", "from G")
+    for kind, a, height, tension, bending in PLATES:
+        t_k, t_g, b_k, b_g = factors(nacre, kind, a, height,
+                                     min(a, 1 - a) / 50)
+        line(kind, a, height, tension or "", compared(t_k, tension),
+             compared(t_g, tension), bending or "", compared(b_k, bending),
+             compared(b_g, bending))
+
+
+def sizes(nacre):
+    head("cell at the tip", "tension from K_I", "from G",
+         "bending from K_M", "from G")
+    for n in 10, 20, 40, 80:
+        t_k, t_g, b_k, b_g = factors(nacre, "centre", .5, 1, .5 / n)
+        line(f"a/{n}", compared(t_k, 1.3337122), compared(t_g, 1.3337122),
+             compared(b_k, 1.1323155), compared(b_g, 1.1323155))
+
+
+def inclined(nacre):
+    """Lips in the direction x, the tension turned: K of an infinite plate."""
+    head("angle", "K_I", "exact", "K_II", "exact")
+    a, width = 1., 30.
+    mesh = make_meshes.cracked((-width, width), width, [-a, a], a / 20, 1.4)
+    for degrees in 30, 45, 60:
+        beta = math.radians(degrees)
+        n, t = math.cos(beta)**2, math.sin(beta) * math.cos(beta)
+        found = nacre.run("cracked_plate.prm", mesh, {
+            "Constants": "a = 1, N = 0, M = 0",
+            "Loads/Edge forces":
+                f"upper: {t}, {n}, 0; lower: -({t}), -({n}), 0",
+            "Loads/Edge moments": "",
+            "Quantities/Quantities": quantities("(1, 0, 0)", "0.05, 0.9"),
+            "Boundary conditions/Edges": "",
+            "Boundary conditions/Points":
+                f"({width}, 0, 0): x = 0, y = 0, z = 0; "
+                f"(-{width}, 0, 0): y = 0, z = 0; (0, {width}, 0): z = 0"})
+        root = math.sqrt(math.pi * a) / H
+        line(degrees, compared(found["K_I"] / root, n), f"{n:.6f}",
+             compared(found["K_II"] / root, t), f"{t:.6f}")
+
+
+def difference(nacre):
+    """G beside the change of the energy between two lengths of the crack."""
+    head("load", "G", "-dPi/da", "difference")
+    a, step = .52, .002
+
+    def moved(end):
+        def position(u, v):
+            x = u * end / a if u <= a else 1 - (1 - u) * (1 - end) / (1 - a)
+            return x, v, 0.
+        return make_meshes.cracked((0., 1.), 1., [a], a / 15, 1.3,
+                                   position=position)
+
+    # Dead loads: Pi = -U; ends that are held: Pi = U
+    turned = {"Boundary conditions/Edges":
+              "left: symmetry; top, bottom: rotation = 0.5",
+              "Boundary conditions/Points": "(1, 0, 0): y = 0, z = 0",
+              "Discretization/Kinematics": "finite", "Analysis/Type": "static",
+              "Study/Degrees": "2"}
+    for name, load, sign, more in (("tension", (1, 0), 1, {}),
+                                   ("bending", (0, 1), 1, {}),
+                                   ("ends turned by 0.5", (0, 0), -1, turned)):
+        def solve(end, load=load, more=more):
+            return plate(nacre, "centre", a, 1., None, load, moved(end), end,
+                         (), more)
+
+        slope = (solve(a + step)["U"] - solve(a - step)["U"]) / (2 * step)
+        G = solve(a)["G"]
+        line(name, f"{G:.6g}", f"{sign * slope:.6g}",
+             f"{100 * (G / (sign * slope) - 1):+.2f} %")
+
+
+def cylinders(nacre):
+    head("R/h", "lambda", "A_m", "Nacre", "A_b", "Nacre", "g", "Nacre")
+    for ratio, shell, a_m, a_b, g in CYLINDERS:
+        h = 1 / ratio
+        a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
+        far = min(16 * a, math.pi)
+        mesh = make_meshes.cracked((0., far), far, [a], a / 20, 1.3,
+                                   position=around_x)
+        found = nacre.run("cracked_cylinder.prm", mesh, {
+            "Constants": f"R = 1, thick = {h!r}, a = {a!r}, N = {h!r}",
+            "Quantities/Quantities": quantities(
+                f"({a!r}, 0, 1)", f"{.1 * a}, {.5 * a}", ("K_I", "K_M"))})
+        root = math.sqrt(math.pi * a)
+        line(ratio, shell, a_m, compared(found["K_I"] / root, a_m), a_b,
+             compared(6 * found["K_M"] / (h * h * root), a_b), g,
+             compared(found["G"] * 1e3 / (h * math.pi * a), g))
+
+
+def around_x(u, v):
+    return u, math.sin(v), math.cos(v)
+
+
+TABLES = {table.__name__: table
+          for table in (plates, sizes, inclined, difference, cylinders)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--nacre", default=PROJECT / "build/release/nacre")
+    arguments = parser.parse_args()
+    if arguments.list:
+        print("\n".join(TABLES))
+        return
+    for name in arguments.names or TABLES:
+        if name not in TABLES:
+            sys.exit(f"cracks.py: no table '{name}'; known: "
+                     f"{', '.join(TABLES)}")
+        print(f"\n{name}\n")
+        with tempfile.TemporaryDirectory() as folder:
+            TABLES[name](Nacre(arguments.nacre, folder))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_energy_release_h
+#define nacre_postprocess_energy_release_h
+
+#include <nacre/postprocess/crack_extension.h>
+#include <nacre/postprocess/shell_state.h>
+
+#include <functional>
+#include <string>
+
+namespace Nacre
+{
+  class CrackPoints;
+
+  /**
+   * What a crack releases as its tip advances, by an integral over the cells
+   * between two distances from the tip. Per length of the crack's front in the
+   * mid-surface:
+   *
+   *   G = -d/ds [sum int W(s) j0(s) det(1 + s dq) dxi]
+   *       - int F . u,g q^g dA + int_lips d/ds (f . u ds),
+   *
+   * with energy_change() and CrackExtension's q, the force F per area and the
+   * force f per length of the lips. The second term is what -d/ds of the
+   * potential -int f . u becomes by partial integration; it holds for a
+   * pressure that follows, too.
+   */
+  class EnergyRelease
+  {
+  public:
+    /**
+     * Throws on all ranks if between the tip and the plateau's end there is
+     * anything but one smooth sheet with a straight crack: other edges, the
+     * crack's other end, creases, other regions, supports or forces at points,
+     * supports or moments at the lips; and in dynamics, of modes and with a
+     * foundation. Collective.
+     */
+    EnergyRelease(const SolvedShell  &shell,
+                  const CrackTip     &tip,
+                  const CrackPlateau &plateau,
+                  const std::string  &where);
+
+    /** G (force): the energy (force times length) per length. Collective. */
+    double
+    rate() const;
+
+    /**
+     * The intensity, as unit_williams_field() defines it, by the interaction
+     * of the displacement u with a unit field X,
+     *
+     *   K = [G(u + X) - G(u - X)] / (4 g),
+     *
+     * g = unit_release_rate(). Throws unless the kinematics are linear and the
+     * section is homogeneous and isotropic. Collective.
+     */
+    double
+    intensity(const CrackMode mode) const;
+
+  private:
+    using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+
+    /** A point of a lip with a weight. */
+    struct LipPoint
+    {
+      const CrackPoints  &points;
+      const unsigned int  q;
+      const cell_iterator cell;
+      const unsigned int  face;
+      /** The tangent x,t (length) along the lip. */
+      Tensor<1, 3> tangent;
+      /** q^t, the velocity along it. */
+      double velocity;
+      /** (q^t |x,t|),t times the weight. */
+      double divergence;
+      double weight;
+      /** The velocity's component out of the lip. */
+      double across;
+    };
+
+    /** Call @p function for this rank's cells that may be near to the tip. */
+    void
+    for_each_cell(
+      const std::function<void(const cell_iterator &)> &function) const;
+
+    /** For the boundary's points that move. */
+    void
+    for_each_lip_point(
+      const std::function<void(const LipPoint &)> &function) const;
+
+    void
+    check_model() const;
+
+    void
+    check_lips() const;
+
+    void
+    check_inside() const;
+
+    /** The displacement plus @p factor times @p field; null: none. */
+    double
+    release(const WilliamsField *field, const double factor) const;
+
+    double
+    release_of_cell(CrackPoints         &points,
+                    const cell_iterator &cell,
+                    const WilliamsField *field,
+                    const double         factor) const;
+
+    /** Of the section at the tip. */
+    ElasticPlate
+    plate_at_tip() const;
+
+    const SolvedShell &shell_;
+    const CrackTip     tip_;
+    const CrackPlateau plateau_;
+    const std::string  where_;
+  };
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/postprocess/crack_points.h>
+
+namespace Nacre
+{
+  CrackPoints::CrackPoints(const ShellState      &state,
+                           const Quadrature<dim> &points)
+    : state_(state)
+    , quadrature_(points)
+    , strains_(state, points)
+    , u_(state.discretization.node_dofs().size())
+  {
+    const auto &fe = state.discretization.geometry_fe();
+    for (const auto &point : points.get_points())
+      for (unsigned int b = 0; b < fe.n_dofs_per_cell(); ++b)
+        {
+          const auto d = fe.shape_3rd_derivative(b, point);
+          third_.push_back({{d[0][0][0], d[0][0][1], d[0][1][1], d[1][1][1]}});
+        }
+  }
+
+  void
+  CrackPoints::reinit(
+    const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+  {
+    strains_.reinit(cell);
+    cell->get_dof_values(state_.displacement, u_);
+    nodes_ = state_.discretization.geometry_nodes(cell);
+  }
+
+  SurfacePatch
+  CrackPoints::surface(const unsigned int q) const
+  {
+    const auto  &values = strains_.values();
+    const auto  &frame  = values.frame(q);
+    SurfacePatch patch{values.point(q),
+                       {frame.a_cov, frame.a_cov_derivatives},
+                       {}};
+    for (unsigned int b = 0; b < nodes_.size(); ++b)
+      for (unsigned int k = 0; k < 4; ++k)
+        patch.third[k] += third_[q * nodes_.size() + b][k] * nodes_[b];
+    return patch;
+  }
+
+  VectorDerivatives
+  CrackPoints::displacement(const unsigned int q) const
+  {
+    const auto       &values = strains_.values();
+    const auto       &shapes = values.shapes();
+    VectorDerivatives u;
+    for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        {
+          const double u_ac = u_[values.dof(a, c)];
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            u.first[alpha][c] += shapes.gradient(q, a)[alpha] * u_ac;
+          for (unsigned int v = 0; v < 3; ++v)
+            u.second[v][c] += shapes.hessian(q, a)[v] * u_ac;
+        }
+    return u;
+  }
+} // namespace Nacre

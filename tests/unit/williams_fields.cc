@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// The fields at a crack's tip: derivatives, equilibrium, free lips,
+// intensities, and the energy that they release, by an integral over a domain.
+
+#include "unit_test.h"
+#include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/postprocess/crack_extension.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <complex>
+
+using namespace Nacre;
+
+namespace
+{
+  const ElasticPlate plate{70., 0.3, 0.2};
+
+  struct Plate : LinearSectionLaw
+  {
+    void
+    prepare(const Constants &) override
+    {}
+    void
+    set_thickness(const double) override
+    {}
+    Constants
+    named_constants() const override
+    {
+      return {};
+    }
+    double
+    thickness(const SectionPoint &) const override
+    {
+      return plate.thickness;
+    }
+    double
+    density(const SectionPoint &) const override
+    {
+      return 0.;
+    }
+    SectionStiffness
+    stiffness(const SurfaceFrame<> &frame, const SectionPoint &) const override
+    {
+      const auto   H = isotropic_stiffness(frame, plate.poissons_ratio);
+      const double D = plate.bending_stiffness();
+      return {12. * D / (plate.thickness * plate.thickness) * H, D * H};
+    }
+  };
+
+  std::vector<WilliamsField>
+  all_fields()
+  {
+    std::vector<WilliamsField> fields;
+    for (const unsigned int n : {1, 2, 3, 5})
+      for (const bool symmetric : {true, false})
+        {
+          fields.push_back(membrane_williams_field(n, symmetric, plate));
+          fields.push_back(bending_williams_field(n, symmetric, plate));
+        }
+    return fields;
+  }
+
+  /** Membrane forces and moments 11, 22, 12 at a point. */
+  template <typename Number>
+  std::array<Voigt<Number>, 2>
+  resultants(const WilliamsField &field, const Number &r, const Number &theta)
+  {
+    const double nu = plate.poissons_ratio, D = plate.bending_stiffness();
+    const auto   du = field.gradient(r, theta), ddu = field.hessian(r, theta);
+    const auto   answer = [&](const double  stiffness,
+                            const Number &e11,
+                            const Number &e22,
+                            const Number &e12) {
+      Voigt<Number> n;
+      n[0] = stiffness * (e11 + nu * e22);
+      n[1] = stiffness * (e22 + nu * e11);
+      n[2] = stiffness * (1. - nu) * e12;
+      return n;
+    };
+    return {{answer(12. * D / (plate.thickness * plate.thickness),
+                    du[0][0],
+                    du[1][1],
+                    0.5 * (du[0][1] + du[1][0])),
+             answer(D, -ddu[0][2], -ddu[1][2], -ddu[2][2])}};
+  }
+
+  using Complex       = std::complex<double>;
+  constexpr double ih = 1e-30;
+
+  /** The derivatives of a function of (r, theta) along x and y. */
+  template <typename Function>
+  auto
+  gradient_of(const Function &function, const double r, const double theta)
+  {
+    const double c = std::cos(theta), s = std::sin(theta);
+    return std::make_pair(
+      function(Complex(r, ih * c), Complex(theta, -ih * s / r)),
+      function(Complex(r, ih * s), Complex(theta, ih * c / r)));
+  }
+
+  double
+  slope(const Complex &value)
+  {
+    return value.imag() / ih;
+  }
+
+  const std::array<CrackMode, 4> modes = {{CrackMode::opening,
+                                           CrackMode::sliding,
+                                           CrackMode::bending,
+                                           CrackMode::twisting}};
+
+  /** G of a field in a plane, by the integral over the ring of the plateau. */
+  double
+  release_rate(const std::vector<std::pair<double, CrackMode>> &fields,
+               const bool                                       is_linear)
+  {
+    const Plate     section;
+    const SectionAt at{section, Instant()};
+    const CrackTip  tip{
+      Point<3>(),
+      {{Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)}},
+      1.};
+    const CrackPlateau plateau{0.5, 2.};
+    double             G = 0.;
+    for (unsigned int part = 0; part < 8; ++part)
+      {
+        const QGauss<2> rule(12);
+        for (unsigned int k = 0; k < rule.size(); ++k)
+          {
+            const double r = 0.5 + 1.5 * rule.point(k)[0];
+            const double theta =
+              numbers::PI / 4. * (part - 4. + rule.point(k)[1]);
+            SurfacePatch      x{Point<3>(r * std::cos(theta),
+                                    r * std::sin(theta),
+                                    0.),
+                           {{{Point<3>(1, 0, 0), Point<3>(0, 1, 0)}}, {}},
+                           {}};
+            VectorDerivatives u;
+            for (const auto &[factor, mode] : fields)
+              {
+                const auto X =
+                  williams_derivatives(unit_williams_field(mode, plate),
+                                       tip,
+                                       theta,
+                                       x);
+                for (unsigned int a = 0; a < 2; ++a)
+                  u.first[a] += factor * X.first[a];
+                for (unsigned int v = 0; v < 3; ++v)
+                  u.second[v] += factor * X.second[v];
+              }
+            const CrackExtension q(tip, plateau, x);
+            G -= energy_change(at, is_linear, x, q, u, Voigt<>(), 1.5) *
+                 rule.weight(k) * 1.5 * r * numbers::PI / 4.;
+          }
+      }
+    return G;
+  }
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(williams_fields)
+
+BOOST_AUTO_TEST_CASE(derivatives)
+{
+  for (const auto &field : all_fields())
+    for (const double theta : {-3., 0.3, 2., 4.})
+      {
+        const double r = 0.7;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            const auto du   = field.gradient(r, theta);
+            const auto ddu  = field.hessian(r, theta);
+            const auto by_u = gradient_of(
+              [&](const Complex &r, const Complex &theta) {
+                return field.value(r, theta)[c];
+              },
+              r,
+              theta);
+            BOOST_TEST(std::abs(slope(by_u.first) - du[0][c]) < 1e-13);
+            BOOST_TEST(std::abs(slope(by_u.second) - du[1][c]) < 1e-13);
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                const auto by_du = gradient_of(
+                  [&](const Complex &r, const Complex &theta) {
+                    return field.gradient(r, theta)[a][c];
+                  },
+                  r,
+                  theta);
+                BOOST_TEST(std::abs(slope(by_du.first) -
+                                    ddu[a == 0 ? 0 : 2][c]) < 1e-12);
+                BOOST_TEST(std::abs(slope(by_du.second) -
+                                    ddu[a == 0 ? 2 : 1][c]) < 1e-12);
+              }
+          }
+      }
+}
+
+BOOST_AUTO_TEST_CASE(equilibrium)
+{
+  // div n = 0, and the Laplacian of w is harmonic.
+  for (const auto &field : all_fields())
+    for (const double theta : {-2.5, 0.4, 1.7})
+      {
+        const double r      = 0.8;
+        const auto   forces = [&](const unsigned int v) {
+          return gradient_of(
+            [&](const Complex &r, const Complex &theta) {
+              return resultants(field, r, theta)[0][v];
+            },
+            r,
+            theta);
+        };
+        const auto n11 = forces(0), n22 = forces(1), n12 = forces(2);
+        BOOST_TEST(std::abs(slope(n11.first) + slope(n12.second)) < 1e-10);
+        BOOST_TEST(std::abs(slope(n12.first) + slope(n22.second)) < 1e-10);
+
+        // The Laplacian in a circle around the point has its value as mean.
+        const auto laplacian = [&](const double x, const double y) {
+          const auto ddu = field.hessian(std::hypot(x, y), std::atan2(y, x));
+          return ddu[0][2] + ddu[1][2];
+        };
+        const double x = r * std::cos(theta), y = r * std::sin(theta);
+        double       mean = 0.;
+        for (unsigned int k = 0; k < 32; ++k)
+          mean += laplacian(x + 0.1 * std::cos(numbers::PI * k / 16.),
+                            y + 0.1 * std::sin(numbers::PI * k / 16.)) /
+                  32.;
+        BOOST_TEST(std::abs(mean - laplacian(x, y)) < 1e-12);
+      }
+}
+
+BOOST_AUTO_TEST_CASE(free_lips)
+{
+  for (const auto &field : all_fields())
+    for (const double theta : {-numbers::PI, numbers::PI})
+      {
+        const double r     = 0.6;
+        const auto [n, m]  = resultants(field, r, theta);
+        const double scale = 12. / (plate.thickness * plate.thickness);
+        BOOST_TEST(std::abs(n[1]) < 1e-12 * scale);
+        BOOST_TEST(std::abs(n[2]) < 1e-12 * scale);
+        BOOST_TEST(std::abs(m[1]) < 1e-12);
+        // V = m_22,2 + 2 m_12,1
+        const auto along = [&](const unsigned int v) {
+          return gradient_of(
+            [&](const Complex &r, const Complex &theta) {
+              return resultants(field, r, theta)[1][v];
+            },
+            r,
+            theta);
+        };
+        BOOST_TEST(std::abs(slope(along(1).second) +
+                            2. * slope(along(2).first)) < 1e-12);
+      }
+}
+
+BOOST_AUTO_TEST_CASE(intensities)
+{
+  const double r = 0.01, nu = plate.poissons_ratio;
+  const double root = std::sqrt(2. * numbers::PI * r);
+  for (const auto mode : modes)
+    {
+      const auto [n, m] = resultants(unit_williams_field(mode, plate), r, 0.);
+      const std::array<double, 4> found = {
+        {n[1] / plate.thickness * root,
+         n[2] / plate.thickness * root,
+         m[1] * root,
+         m[2] * root * (3. + nu) / (1. + nu)}};
+      for (unsigned int k = 0; k < 4; ++k)
+        BOOST_TEST(std::abs(found[k] - (mode == modes[k] ? 1. : 0.)) < 1e-12);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(release_rates)
+{
+  for (const auto mode : modes)
+    {
+      const double G = unit_release_rate(mode, plate);
+      BOOST_TEST(std::abs(release_rate({{1., mode}}, true) / G - 1.) < 1e-8);
+      // Strains of 1e-8 are linear.
+      BOOST_TEST(std::abs(1e16 * release_rate({{1e-8, mode}}, false) / G - 1.) <
+                 1e-6);
+      for (const auto other : modes)
+        if (other != mode)
+          {
+            const double sum = release_rate({{1., mode}, {1., other}}, true) /
+                               (G + unit_release_rate(other, plate));
+            BOOST_TEST(std::abs(sum - 1.) < 1e-8);
+          }
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
