@@ -26,7 +26,10 @@ namespace Nacre
     const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
   {
     strains_.reinit(cell);
-    cell->get_dof_values(state_.displacement, u_);
+    std::vector<types::global_dof_index> dofs;
+    state_.discretization.get_dof_indices(cell, dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      u_[i] = state_.displacement(dofs[i]);
     nodes_ = state_.discretization.geometry_nodes(cell);
   }
 

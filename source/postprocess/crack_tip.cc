@@ -34,7 +34,7 @@ namespace Nacre
       std::pair<double, Point<3>> nearest(std::numeric_limits<double>::max(),
                                           {});
       for (const auto &cell :
-           discretization.triangulation().active_cell_iterators())
+           discretization.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
           for (const unsigned int v : cell->vertex_indices())
             {
@@ -56,10 +56,10 @@ namespace Nacre
 
     /** Add what a cell knows of its own vertex @p v. */
     void
-    add_vertex(const Discretization                                     &mesh,
-               const Triangulation<dim, spacedim>::active_cell_iterator &cell,
-               const unsigned int                                        v,
-               VertexEdges                                              &edges)
+    add_vertex(const Discretization                                  &mesh,
+               const DoFHandler<dim, spacedim>::active_cell_iterator &cell,
+               const unsigned int                                     v,
+               VertexEdges                                           &edges)
     {
       const auto            reference = cell->reference_cell();
       const auto            nodes     = mesh.geometry_nodes(cell);
@@ -96,7 +96,7 @@ namespace Nacre
     {
       VertexEdges mine;
       for (const auto &cell :
-           discretization.triangulation().active_cell_iterators())
+           discretization.dof_handler().active_cell_iterators())
         if (cell->is_locally_owned())
           for (const unsigned int v : cell->vertex_indices())
             if (discretization.geometry_nodes(cell)[v].distance(vertex) <

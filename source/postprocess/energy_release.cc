@@ -188,8 +188,13 @@ namespace Nacre
               nearest = std::min(nearest, x.distance(tip_.position));
               extent  = std::max(extent, x.distance(nodes[0]));
             }
-          if (nearest < plateau_.outer + extent)
-            function(cell);
+          if (nearest >= plateau_.outer + extent)
+            continue;
+          AssertThrow(!shell_.discretization.cell_parts().is_touched(cell),
+                      ExcMessage(where_ +
+                                 "lies a cut of Cuts/Cuts; tips of slits of "
+                                 "the mesh are meant here."));
+          function(cell);
         }
   }
 
@@ -200,7 +205,7 @@ namespace Nacre
     ShellEdgeValues edge(shell_.discretization);
     for_each_cell([&](const cell_iterator &cell) {
       for (const unsigned int face : cell->face_indices())
-        if (edge.reinit_to_neighbor(cell, face))
+        edge.for_pieces_to_neighbor(cell, face, [&](const auto &edge) {
           for (unsigned int q = 0; q < edge.n_points(); ++q)
             {
               const Point<3> x = edge.point(q);
@@ -224,6 +229,7 @@ namespace Nacre
                                      coordinates_of(x) +
                                      "; choose smaller radii."));
             }
+        });
     });
   }
 
