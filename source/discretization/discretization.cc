@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/nodal_mapping.h>
 #include <nacre/problem/cuts.h>
@@ -40,14 +39,13 @@ namespace Nacre
                                  const Element     &element,
                                  const unsigned int mapping_degree,
                                  const unsigned int n_refinements)
-    : Discretization(
-        midsurface.create_triangulation(communicator,
-                                        element.reference_cell(),
-                                        n_refinements),
-        midsurface,
-        element,
-        mapping_degree,
-        Cuts())
+    : Discretization(midsurface.create_triangulation(communicator,
+                                                     element.reference_cell(),
+                                                     n_refinements),
+                     midsurface,
+                     element,
+                     mapping_degree,
+                     Cuts())
   {}
 
   Discretization::Discretization(
@@ -105,16 +103,16 @@ namespace Nacre
   void
   Discretization::cut(const Midsurface &midsurface, const Cuts &cuts)
   {
-    CellMaps maps{
-      element_.reference_cell(),
-      [this](const auto &cell, const auto &unit) {
-        const std::size_t n   = geometry_to_nodes_.n();
-        const auto     *nodes = &geometry_nodes_[cell->active_cell_index() * n];
-        Point<spacedim> x;
-        for (unsigned int b = 0; b < n; ++b)
-          x += geometry_fe().shape_value(b, unit) * nodes[b];
-        return x;
-      }};
+    CellMaps maps{element_.reference_cell(),
+                  [this](const auto &cell, const auto &unit) {
+                    const std::size_t n = geometry_to_nodes_.n();
+                    const auto       *nodes =
+                      &geometry_nodes_[cell->active_cell_index() * n];
+                    Point<spacedim> x;
+                    for (unsigned int b = 0; b < n; ++b)
+                      x += geometry_fe().shape_value(b, unit) * nodes[b];
+                    return x;
+                  }};
     if (midsurface.has_chart())
       {
         maps.chart = [&midsurface](const auto &cell, const auto &unit) {
@@ -125,6 +123,8 @@ namespace Nacre
     const CutTrace trace(*triangulation_, maps, cuts);
     parts_         = CellParts(dof_handler_, trace);
     smallest_part_ = cuts.smallest_part;
+    cut_lines_     = trace.lines();
+    tips_          = trace.tips();
   }
 
   void
