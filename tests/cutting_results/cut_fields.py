@@ -81,7 +81,6 @@ def check_fields(runs):
                     for i in (0, 1))) for k in range(cut.GetNumberOfCells()))
     wrong = (abs(covered[0] - LENGTH * EDGE)
              + abs(covered[1] - LENGTH * (1. - EDGE)))
-    print(wrong, errors, length)
     # The files hold single precision.
     return {"both strips are covered": wrong < 1e-5,
             "displacements of each strip": errors[0] < 1e-5,
@@ -107,15 +106,14 @@ def check_estimates(runs):
     inside = runs.run("inside", **only, **{
         "Mid-surface/Subdivisions": "5, 5",
         "Cuts/Cuts": "slit: uv (0, .5) (L, .5)"})
-    print(exact["estimate"], both["estimate"], one["estimate"],
-          inside["estimate"])
     twice = math.sqrt(2.) * one["estimate"]
     return {"no estimate of a polynomial":
             exact["estimate"] < 1e-6 * math.sqrt(2. * exact["U"]),
             "estimate of two strips": abs(both["estimate"] - twice)
             < 1e-6 * twice,
-            "estimate of halves of cells": .5 * twice < inside["estimate"]
-            < 1.5 * twice}
+            # Without lips it would be .77 of it.
+            "estimate of halves of cells": .9 * twice < inside["estimate"]
+            < 1.25 * twice}
 
 
 def check_restart(runs):
@@ -127,7 +125,6 @@ def check_restart(runs):
     whole = runs.run("path", **path)
     runs.run("again", **path, **{"Analysis/End_time": ".5"})
     again = runs.run("again", "--restart", **path)
-    print(whole["w"], again["w"])
     return {"a path goes on": abs(again["w"] - whole["w"])
             < 1e-8 * abs(whole["w"])}
 
