@@ -134,8 +134,10 @@ namespace Nacre
   std::vector<EdgePiece>
   CellParts::pieces_between(const Cell &cell, const unsigned int face) const
   {
-    const Cell         neighbor = cell->neighbor(face);
-    const unsigned int back     = cell->neighbor_of_neighbor(face);
+    const Cell neighbor = cell->neighbor(face);
+    if (neighbor->is_artificial())
+      return {};
+    const unsigned int back = cell->neighbor_of_neighbor(face);
     const bool turns = first_vertex(cell, face) != first_vertex(neighbor, back);
     const auto &opened =
       entries_[entry_of_cell_[cell->active_cell_index()]].opened[face];
