@@ -14,7 +14,8 @@ def case(name, expect, settings, args=("--check",)):
                        args=list(args), folder={}, code=1)
 
 
-case("cut_unknown", ["Quantities/Quantities, 'a'", "unknown cut 'slot'", "slit"],
+case("cut_unknown",
+     ["Quantities/Quantities, 'a'", "unknown cut 'slot'", "slit"],
      {"Quantities/Quantities": "a = length of slot"})
 case("cut_none", ["the shell has no cuts", "Cuts/Cuts"],
      {"Quantities/Quantities": "a = length of slit", "Cuts/Cuts": ""})
