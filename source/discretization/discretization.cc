@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/nodal_mapping.h>
 #include <nacre/problem/cuts.h>
@@ -124,6 +123,8 @@ namespace Nacre
     const CutTrace trace(*triangulation_, maps, cuts);
     parts_         = CellParts(dof_handler_, trace);
     smallest_part_ = cuts.smallest_part;
+    cut_lines_     = trace.lines();
+    tips_          = trace.tips();
   }
 
   void

@@ -298,55 +298,71 @@ namespace Nacre
           << in_words(best.position) << '.';
       AssertThrow(best.distance <= 0.02 * best.size, ExcMessage(off.str()));
     }
+
+    /** What locate() finds, with its checks or without. */
+    SurfacePoint
+    find_point(const Discretization  &mesh,
+               const Point<spacedim> &point,
+               const std::string     &source,
+               const bool             checks)
+    {
+      double                 smallest;
+      const auto             mine = nearest_cells(mesh, point, smallest);
+      std::vector<Candidate> candidates, all;
+      for (const auto &near : mine)
+        candidates.push_back(make_candidate(mesh, near));
+      for (const auto &part :
+           Utilities::MPI::all_gather(mesh.communicator(), candidates))
+        all.insert(all.end(), part.begin(), part.end());
+      // The lowest of the cells that share the point is the same on any number
+      // of ranks.
+      std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+        return std::tie(a.id, a.number) < std::tie(b.id, b.number);
+      });
+      const auto best =
+        std::find_if(all.begin(), all.end(), [&](const auto &candidate) {
+          return candidate.distance <= smallest + 1e-6 * candidate.size;
+        });
+      Assert(best != all.end(), ExcInternalError());
+      if (checks)
+        {
+          check_distance(*best, source);
+          const auto other = find_separate(mesh, mine, all, best - all.begin());
+          AssertThrow(other == all.size(),
+                      ExcMessage(source +
+                                 ": the point lies on two parts of the surface "
+                                 "that aren't joined there, as the lips of a "
+                                 "slit. Choose a point further inside one of "
+                                 "them, such as " +
+                                 in_words(best->inside) + " or " +
+                                 in_words(all[other].inside) + '.'));
+        }
+
+      SurfacePoint result;
+      result.position      = best->position;
+      result.distance      = best->distance;
+      result.cell_diameter = best->size;
+      for (const auto &near : mine)
+        if (is_of(*best, near))
+          {
+            result.is_mine = true;
+            result.part    = near.part;
+            result.unit    = near.unit;
+          }
+      return result;
+    }
   } // namespace
 
   SurfacePoint
   Discretization::locate(const Point<spacedim> &point,
                          const std::string     &source) const
   {
-    double                 smallest;
-    const auto             mine = nearest_cells(*this, point, smallest);
-    std::vector<Candidate> candidates, all;
-    for (const auto &near : mine)
-      candidates.push_back(make_candidate(*this, near));
-    for (const auto &part :
-         Utilities::MPI::all_gather(communicator(), candidates))
-      all.insert(all.end(), part.begin(), part.end());
-    // The lowest of the cells that share the point is the same on any number of
-    // ranks.
-    std::sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
-      return std::tie(a.id, a.number) < std::tie(b.id, b.number);
-    });
-    const auto best =
-      std::find_if(all.begin(), all.end(), [&](const auto &candidate) {
-        return candidate.distance <= smallest + 1e-6 * candidate.size;
-      });
-    Assert(best != all.end(), ExcInternalError());
-    if (!is_coarse_level_)
-      {
-        check_distance(*best, source);
-        const auto other = find_separate(*this, mine, all, best - all.begin());
-        AssertThrow(other == all.size(),
-                    ExcMessage(source +
-                               ": the point lies on two parts of the surface "
-                               "that aren't joined there, as the lips of a "
-                               "slit. Choose a point further inside one of "
-                               "them, such as " +
-                               in_words(best->inside) + " or " +
-                               in_words(all[other].inside) + '.'));
-      }
+    return find_point(*this, point, source, !is_coarse_level_);
+  }
 
-    SurfacePoint result;
-    result.position      = best->position;
-    result.distance      = best->distance;
-    result.cell_diameter = best->size;
-    for (const auto &near : mine)
-      if (is_of(*best, near))
-        {
-          result.is_mine = true;
-          result.part    = near.part;
-          result.unit    = near.unit;
-        }
-    return result;
+  SurfacePoint
+  Discretization::nearest(const Point<spacedim> &point) const
+  {
+    return find_point(*this, point, "", false);
   }
 } // namespace Nacre

@@ -361,6 +361,25 @@ namespace Nacre
     join_dofs();
   }
 
+  void
+  ShellEdgeValues::reinit_lip(const CellPart &part, const unsigned int i)
+  {
+    const CellPolygon   &polygon = part.polygon();
+    const Point<dim>     begin   = polygon.vertex(i);
+    const Tensor<1, dim> along =
+      polygon.vertex((i + 1) % polygon.n_vertices()) - begin;
+    std::vector<Point<dim>> points;
+    for (const auto &x : quadrature_.get_points())
+      points.push_back(begin + x[0] * along);
+    n_sides_ = 1;
+    piece_tables_[0].emplace(discretization_, points);
+    table_of_side_[0] = {numbers::invalid_unsigned_int, piece_kind};
+    parts_[0]         = part;
+    // The polygon lies on the left of its sides.
+    evaluate(0, along, 1., 1.);
+    join_dofs();
+  }
+
   bool
   ShellEdgeValues::reinit_to_neighbor(const cell_iterator &cell,
                                       const unsigned int   face)
@@ -396,7 +415,7 @@ namespace Nacre
     table(face, kind);
     table_of_side_[side] = {face, kind};
     parts_[side]         = part;
-    evaluate(side, whole ? 1. : 0.5);
+    evaluate(side, directions_[face], outward_[face], whole ? 1. : 0.5);
   }
 
   void
@@ -414,23 +433,27 @@ namespace Nacre
     piece_tables_[side].emplace(discretization_, points);
     table_of_side_[side] = {piece.face, piece_kind};
     parts_[side]         = piece.part;
-    evaluate(side, std::abs(s_1 - s_0));
+    evaluate(side,
+             directions_[piece.face],
+             outward_[piece.face],
+             std::abs(s_1 - s_0));
   }
 
   void
-  ShellEdgeValues::evaluate(const unsigned int side, const double share)
+  ShellEdgeValues::evaluate(const unsigned int    side,
+                            const Tensor<1, dim> &along,
+                            const double          outward,
+                            const double          share)
   {
-    const unsigned int face      = table_of_side_[side].first;
-    auto              &geometry  = geometry_[side];
+    auto &geometry               = geometry_[side];
     material_ids_[side]          = parts_[side].cell->material_id();
     tied_sides_[side].has_frames = tied_sides_[side].has_rows = false;
     table_of(side).geometry.evaluate(discretization_.geometry_nodes(
                                        parts_[side]),
                                      geometry);
 
-    const Tensor<1, dim> along = directions_[face];
     // nu^- = n^-, nu^+ = -n^+
-    const double sign = outward_[face] * (side == 0 ? 1. : -1.);
+    const double sign = outward * (side == 0 ? 1. : -1.);
     for (unsigned int q = 0; q < n_points(); ++q)
       {
         const auto &frame = frames_[side][q] = frame_from(geometry, q);

@@ -7,6 +7,7 @@
 #include <nacre/forms/rotation_jump.h>
 #include <nacre/postprocess/error_estimator.h>
 #include <nacre/postprocess/error_weight.h>
+#include <nacre/postprocess/residual_edges.h>
 #include <nacre/postprocess/stress_polynomials.h>
 #include <nacre/problem/shell_model.h>
 
@@ -20,27 +21,6 @@ namespace Nacre
     using Tensor3  = Tensor<2, spacedim>;
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
-    /** Derivatives of Lagrange polynomials through points: [point][node]. */
-    FullMatrix<double>
-    make_differentiation(const Quadrature<1> &points)
-    {
-      const unsigned int n = points.size();
-      FullMatrix<double> matrix(n, n);
-      const auto x = [&](const unsigned int i) { return points.point(i)[0]; };
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int k = 0; k < n; ++k)
-            if (k != j)
-              {
-                double product = 1. / (x(j) - x(k));
-                for (unsigned int l = 0; l < n; ++l)
-                  if (l != j && l != k)
-                    product *= (x(i) - x(l)) / (x(j) - x(l));
-                matrix(i, j) += product;
-              }
-      return matrix;
-    }
-
     /** Height of the cell over its edge of the conormal @p n (length). */
     double
     height(const SurfaceFrame<> &frame, const Vector3 &n)
@@ -48,34 +28,6 @@ namespace Nacre
       return 1. / std::hypot(frame.a_con[0] * n, frame.a_con[1] * n);
     }
   } // namespace
-
-  double
-  ErrorIndicators::of_cell(const unsigned int cell) const
-  {
-    double sum = 0.;
-    for (const double part : parts_[cell])
-      sum += part;
-    return sum;
-  }
-
-  double
-  ErrorIndicators::total(const MPI_Comm communicator) const
-  {
-    double sum = 0.;
-    for (unsigned int cell = 0; cell < parts_.size(); ++cell)
-      sum += of_cell(cell);
-    return Utilities::MPI::sum(sum, communicator);
-  }
-
-  double
-  ErrorIndicators::total(const Residual residual,
-                         const MPI_Comm communicator) const
-  {
-    double sum = 0.;
-    for (unsigned int cell = 0; cell < parts_.size(); ++cell)
-      sum += part(cell, residual);
-    return Utilities::MPI::sum(sum, communicator);
-  }
 
 
   /** The residuals of one or two fields, and their products. */
@@ -90,7 +42,7 @@ namespace Nacre
                   estimator.parts_.section,
                   estimator.parts_.kinematics,
                   displacements(fields))
-      , weights_(discretization_.triangulation().n_active_cells())
+      , weights_(discretization_.n_part_indices())
       , cell_values_(discretization_,
                      discretization_.element().full_quadrature(),
                      false)
@@ -122,37 +74,45 @@ namespace Nacre
       return result;
     }
 
-    /** W of the cells of this rank and their ghosts. */
+    /** W of the parts of this rank and their ghosts. */
     void
     fill_weights()
     {
       const auto      cell_type = discretization_.element().reference_cell();
       ShellCellValues values(discretization_,
                              Quadrature<dim>(cell_type.barycenter<dim>()),
-                             false);
-      for (const auto &cell :
-           discretization_.dof_handler().active_cell_iterators())
-        if (!cell->is_artificial())
-          {
-            values.reinit_frames(cell);
-            const auto frame = deformed_frame_at(cell, values, 0);
-            weights_[cell->active_cell_index()] =
-              error_weight(frame,
-                           estimator_.parts_.section.stiffness(values.frame(0),
-                                                               values.point(0)),
-                           resolved_wave_number(discretization_.degree()));
-          }
+                             false,
+                             ShellCellValues::Points::given);
+      for (const CellPart &part : discretization_.relevant_parts())
+        {
+          values.reinit_frames(part);
+          const auto frame = deformed_frame_at(part, values, 0);
+          weights_[part.index()] =
+            error_weight(frame,
+                         estimator_.parts_.section.stiffness(values.frame(0),
+                                                             values.point(0)),
+                         resolved_wave_number(discretization_.degree()));
+        }
+    }
+
+    /** Set u_ to a field's values on a part. */
+    void
+    extract(const CellPart &part, const unsigned int field)
+    {
+      discretization_.get_dof_indices(part, dofs_);
+      for (unsigned int i = 0; i < dofs_.size(); ++i)
+        u_[i] = (*fields_[field].displacement)(dofs_[i]);
     }
 
     /** The frame itself in linear kinematics. */
     SurfaceFrame<>
-    deformed_frame_at(const Iterator        &cell,
+    deformed_frame_at(const CellPart        &part,
                       const ShellCellValues &values,
                       const unsigned int     q)
     {
       if (is_linear_)
         return values.frame(q);
-      cell->get_dof_values(*fields_[0].displacement, u_);
+      extract(part, 0);
       extract_nodes(values, u_, nodes_[0]);
       return deformed_frame(values.frame(q), values.shapes(), q, nodes_[0]);
     }
@@ -166,9 +126,9 @@ namespace Nacre
     }
 
     const Tensor3 &
-    weight_of(const Iterator &cell) const
+    weight_of(const CellPart &part) const
     {
-      return weights_[cell->active_cell_index()];
+      return weights_[part.index()];
     }
 
     /** Indicators of (0, 0), (0, 1), (1, 1), or of (0, 0) only. */
@@ -176,14 +136,14 @@ namespace Nacre
     run()
     {
       run_on_all_ranks(discretization_.communicator(), [&]() {
-        for (const auto &cell :
-             discretization_.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              add_cell(cell);
-              for (const auto face : cell->face_indices())
-                add_face(cell, face);
-            }
+        for (const CellPart &part : discretization_.owned_parts())
+          {
+            add_cell(part);
+            add_lips(part);
+            if (part.data == nullptr || part.data->number == 0)
+              for (const auto face : part.cell->face_indices())
+                add_face(part.cell, face);
+          }
       });
       return std::move(products_);
     }
@@ -192,25 +152,25 @@ namespace Nacre
     /** Add @p factor times @p product(f, g) for all pairs of fields. */
     template <typename Product>
     void
-    add(const Iterator &cell,
+    add(const CellPart &part,
         const Residual  residual,
         const double    factor,
         const Product  &product)
     {
-      if (cell->is_locally_owned())
+      if (part.cell->is_locally_owned())
         for (unsigned int k = 0; k < pairs_.size(); ++k)
-          products_[k].add(cell->active_cell_index(),
+          products_[k].add(part.cell->active_cell_index(),
                            residual,
                            factor * product(pairs_[k].first, pairs_[k].second));
     }
 
     void
-    add_cell(const Iterator &cell)
+    add_cell(const CellPart &part)
     {
-      cell_values_.reinit_frames(cell);
+      cell_values_.reinit_frames(part);
       const auto &section = estimator_.parts_.section;
       const auto &loads   = estimator_.parts_.loads;
-      const auto &W       = weight_of(cell);
+      const auto &W       = weight_of(part);
       for (unsigned int q = 0; q < cell_values_.n_points(); ++q)
         {
           const auto &frame = cell_values_.frame(q);
@@ -218,7 +178,7 @@ namespace Nacre
           for (unsigned int f = 0; f < fields_.size(); ++f)
             {
               vectors_[f] =
-                StressPolynomials::divergence(stresses_.nodal(cell, f),
+                StressPolynomials::divergence(stresses_.nodal(part, f),
                                               cell_values_.shapes(),
                                               q) /
                 frame.j0;
@@ -230,18 +190,18 @@ namespace Nacre
                                                     instant_of(f));
               if (const auto *const foundation = estimator_.parts_.foundation)
                 {
-                  cell->get_dof_values(*fields_[f].displacement, u_);
+                  extract(part, f);
                   vectors_[f] -=
                     foundation_force(*foundation, cell_values_, q, u_);
                 }
               if (fields_[f].has_data && loads.pressure_follows())
                 {
-                  const auto phi = deformed_frame_at(cell, cell_values_, q);
+                  const auto phi = deformed_frame_at(part, cell_values_, q);
                   vectors_[f] += loads.pressure(x, instant_of(f)) * phi.j0 /
                                  frame.j0 * phi.t0;
                 }
             }
-          add(cell,
+          add(part,
               Residual::equilibrium,
               cell_values_.JxW(q),
               [&](const unsigned int f, const unsigned int g) {
@@ -255,11 +215,13 @@ namespace Nacre
     add_face(const Iterator &cell, const unsigned int face)
     {
       const auto whole = numbers::invalid_unsigned_int;
-      if (cell->at_boundary(face))
+      if (discretization_.cell_parts().has_pieces(cell, face))
+        add_pieces(cell, face);
+      else if (cell->at_boundary(face))
         {
           edge_.reinit(cell, face);
-          find_prescribed_rotations(cell, face);
-          add_edge({{cell, cell}}, cell->face(face)->boundary_id());
+          find_prescribed_rotations({cell->active_cell_index(), face});
+          add_edge(cell->face(face)->boundary_id());
         }
       else if (cell->neighbor(face)->has_children())
         {
@@ -271,7 +233,7 @@ namespace Nacre
               if (child->is_locally_owned())
                 continue;
               edge_.reinit(cell, face, sub, child, back, whole);
-              add_edge({{cell, child}}, numbers::internal_face_boundary_id);
+              add_edge(numbers::internal_face_boundary_id);
             }
         }
       else if (cell->neighbor_is_coarser(face))
@@ -279,26 +241,61 @@ namespace Nacre
           const auto neighbor = cell->neighbor(face);
           const auto back     = cell->neighbor_of_coarser_neighbor(face);
           edge_.reinit(cell, face, whole, neighbor, back.first, back.second);
-          add_edge({{cell, neighbor}}, numbers::internal_face_boundary_id);
+          add_edge(numbers::internal_face_boundary_id);
         }
       else
         {
-          const auto         neighbor = cell->neighbor(face);
-          const unsigned int back     = cell->neighbor_of_neighbor(face);
-          if (neighbor->is_locally_owned() &&
-              std::make_pair(neighbor->index(), back) <
-                std::make_pair(cell->index(), face))
+          if (is_taken_by_neighbor(cell, face))
             return;
-          edge_.reinit(cell, face, whole, neighbor, back, whole);
-          add_edge({{cell, neighbor}}, numbers::internal_face_boundary_id);
+          edge_.reinit(cell,
+                       face,
+                       whole,
+                       cell->neighbor(face),
+                       cell->neighbor_of_neighbor(face),
+                       whole);
+          add_edge(numbers::internal_face_boundary_id);
         }
+    }
+
+    /** An edge of a cell that is cut, or whose neighbour is. */
+    void
+    add_pieces(const Iterator &cell, const unsigned int face)
+    {
+      const auto id = cell->at_boundary(face) ?
+                        cell->face(face)->boundary_id() :
+                        numbers::internal_face_boundary_id;
+      for (const EdgePiece &piece :
+           residual_pieces(discretization_.cell_parts(), cell, face))
+        {
+          // The points of whole edges stand where their rotations are given.
+          if (cell->at_boundary(face) && !piece.sides[0].part.is_cut())
+            edge_.reinit(cell, face);
+          else
+            edge_.reinit(piece);
+          if (piece.n_sides == 1)
+            find_prescribed_rotations(piece.place());
+          add_edge(id);
+        }
+    }
+
+    /** The lips of a part within its cell, which are free edges. */
+    void
+    add_lips(const CellPart &part)
+    {
+      if (!part.is_cut())
+        return;
+      for (unsigned int i = 0; i < part.polygon().n_vertices(); ++i)
+        if (part.polygon().side(i).face == numbers::invalid_unsigned_int)
+          {
+            edge_.reinit_lip(part, i);
+            prescribed_.assign(edge_.n_points(), PrescribedRotation());
+            add_edge(numbers::internal_face_boundary_id);
+          }
     }
 
     /** d/ds (m^ab nu_a tau_b t0) of a side at all points of the edge. */
     std::vector<Vector3>
-    twisting_forces(const Iterator    &cell,
-                    const unsigned int side,
-                    const unsigned int field) const
+    twisting_forces(const unsigned int side, const unsigned int field) const
     {
       const unsigned int   n = edge_.n_points();
       std::vector<Vector3> twist(n), forces(n);
@@ -308,7 +305,7 @@ namespace Nacre
           const Vector3 nu    = outward(side, q);
           const Vector3 tau   = tangents_[q];
           twist[q]            = StressPolynomials::moment(
-                       stresses_.nodal(cell, field),
+                       stresses_.nodal(edge_.part(side), field),
                        edge_.shapes(side),
                        q,
                        {{frame.a_cov[0] * nu, frame.a_cov[1] * nu}},
@@ -343,9 +340,12 @@ namespace Nacre
         }
     }
 
-    /** Add the edge that edge_ holds; @p id of a boundary, or internal. */
+    /**
+     * Add the edge that edge_ holds; @p id of a boundary, or internal, that of
+     * a lip as well.
+     */
     void
-    add_edge(const std::array<Iterator, 2> &cells, const types::boundary_id id)
+    add_edge(const types::boundary_id id)
     {
       const unsigned int n_sides = edge_.n_sides();
       fill_tangents();
@@ -355,13 +355,14 @@ namespace Nacre
       for (unsigned int f = 0; f < fields_.size(); ++f)
         for (unsigned int side = 0; side < n_sides; ++side)
           {
-            const auto twist = twisting_forces(cells[side], side, f);
+            const auto twist = twisting_forces(side, f);
             for (unsigned int q = 0; q < edge_.n_points(); ++q)
               {
                 const auto &frame = edge_.frame(side, q);
                 const auto  nu    = outward(side, q);
                 const auto  force =
-                  StressPolynomials::forces(stresses_.nodal(cells[side], f),
+                  StressPolynomials::forces(stresses_.nodal(edge_.part(side),
+                                                            f),
                                             edge_.shapes(side),
                                             q);
                 for (unsigned int b = 0; b < 2; ++b)
@@ -377,7 +378,7 @@ namespace Nacre
           is_linear_ ? fill_jumps(q) : fill_finite_jumps(q);
           if (n_sides == 1)
             apply_boundary_data(id, q);
-          add_edge_point(cells, q);
+          add_edge_point(q);
         }
     }
 
@@ -410,14 +411,13 @@ namespace Nacre
 
     /** The rotations prescribed at the points of a boundary edge, or none. */
     void
-    find_prescribed_rotations(const Iterator &cell, const unsigned int face)
+    find_prescribed_rotations(const PrescribedRotations::key_type &place)
     {
       prescribed_.assign(edge_.n_points(), PrescribedRotation());
       const auto *const actions = fields_[0].actions;
       if (actions == nullptr)
         return;
-      const auto found =
-        actions->rotations.find({cell->active_cell_index(), face});
+      const auto found = actions->rotations.find(place);
       if (found != actions->rotations.end())
         prescribed_ = found->second;
     }
@@ -492,29 +492,30 @@ namespace Nacre
     }
 
     void
-    add_edge_point(const std::array<Iterator, 2> &cells, const unsigned int q)
+    add_edge_point(const unsigned int q)
     {
       const unsigned int n_sides = edge_.n_sides();
       Tensor3            W;
       double             h = 0.;
       for (unsigned int side = 0; side < n_sides; ++side)
         {
-          W += weight_of(cells[side]) / n_sides;
+          W += weight_of(edge_.part(side)) / n_sides;
           h += height(edge_.frame(side, q), outward(side, q)) / n_sides;
         }
       const Vector3 t   = normal_ / normal_.norm();
       const double  k   = resolved_wave_number(discretization_.degree()) / h;
       const double  W_n = t * (W * t);
       const auto   &penalty = estimator_.penalty_;
-      const double  eta = n_sides == 2 ? penalty.interior(cells[0], cells[1]) :
-                                         2. * penalty.boundary(cells[0]);
-      const double  share = edge_.JxW(q) / n_sides;
+      const double  eta     = n_sides == 2 ?
+                                penalty.interior(edge_.part(0), edge_.part(1)) :
+                                2. * penalty.boundary(edge_.part(0));
+      const double  share   = edge_.JxW(q) / n_sides;
       for (unsigned int side = 0; side < n_sides; ++side)
         {
           const auto add_part = [&](const Residual residual,
                                     const double   factor,
                                     const auto    &product) {
-            add(cells[side], residual, share * factor, product);
+            add(edge_.part(side), residual, share * factor, product);
           };
           add_part(Residual::traction,
                    0.25 * k,
@@ -560,6 +561,7 @@ namespace Nacre
     //@{
     const bool                             is_linear_;
     dealii::Vector<double>                 u_;
+    std::vector<types::global_dof_index>   dofs_;
     std::array<NodeVectors<double>, 2>     nodes_;
     std::array<TiedGreenStrain<double>, 2> membrane_;
     FiniteEdgePoint<double>                point_;

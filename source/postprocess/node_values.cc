@@ -21,7 +21,12 @@ namespace Nacre
     std::vector<Line>                    lines;
     std::set<types::global_dof_index>    visited;
     std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const CellPart &part : space.owned_parts())
+    // A part of a ghost may hold a node that owned ones only continue to.
+    auto parts = space.owned_parts();
+    for (const CellPart &part : space.relevant_parts())
+      if (part.is_cut() && !part.cell->is_locally_owned())
+        parts.push_back(part);
+    for (const CellPart &part : parts)
       {
         space.get_dof_indices(part, dofs);
         const auto nodes = space.node_positions(part);
@@ -29,6 +34,9 @@ namespace Nacre
           {
             const auto first = dofs[node_dofs[spacedim * a]];
             if (!space.locally_owned_dofs().is_element(first) ||
+                (part.is_cut() && !part.polygon().contains(
+                                    space.scalar_fe().unit_support_point(a),
+                                    1e-6)) ||
                 !visited.insert(first).second)
               continue;
             Line line;

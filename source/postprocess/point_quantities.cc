@@ -244,13 +244,12 @@ namespace Nacre
       CellResults results(
         state,
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
-        false);
+        false,
+        true);
       for (const CellPart &part : discretization.owned_parts())
         {
           results.reinit(part);
-          for (unsigned int q = 0;
-               q < discretization.scalar_fe().n_dofs_per_cell();
-               ++q)
+          for (unsigned int q = 0; q < results.n_points(); ++q)
             {
               const PointResults r = results.at(q);
               const auto        &stress =

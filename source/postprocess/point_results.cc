@@ -50,12 +50,13 @@ namespace Nacre
 
   CellResults::CellResults(const ShellState      &state,
                            const Quadrature<dim> &points,
-                           const bool             with_shear)
+                           const bool             with_shear,
+                           const bool             spread)
     : state_(state)
-    , strains_(state, points)
+    , strains_(state, points, spread)
   {
     if (with_shear)
-      shear_.emplace(state, points);
+      shear_.emplace(state);
   }
 
   void
@@ -63,7 +64,7 @@ namespace Nacre
   {
     strains_.reinit(part);
     if (shear_)
-      shear_->reinit(part.cell);
+      shear_->reinit(part, strains_.values());
   }
 
   PointResults

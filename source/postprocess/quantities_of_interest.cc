@@ -6,6 +6,7 @@
 #include <nacre/forms/mass_terms.h>
 #include <nacre/postprocess/crack_quantities.h>
 #include <nacre/postprocess/crack_tip.h>
+#include <nacre/postprocess/cut_quantities.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
 #include <nacre/postprocess/ply_quantities.h>
@@ -70,12 +71,24 @@ namespace Nacre
     double
     maximum_displacement(const SolvedShell &shell)
     {
-      const auto &discretization = shell.discretization;
-      const auto &node_dofs      = discretization.node_dofs();
-      double      maximum        = 0.;
+      const auto  &discretization = shell.discretization;
+      const auto  &node_dofs      = discretization.node_dofs();
+      double       maximum        = 0.;
+      StrainValues on_parts(
+        shell,
+        Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
+        true);
       std::vector<types::global_dof_index> dofs(node_dofs.size());
       for (const CellPart &part : discretization.owned_parts())
         {
+          if (part.is_cut())
+            {
+              // Some of its nodes lie beyond a cut.
+              on_parts.reinit(part);
+              for (unsigned int q = 0; q < on_parts.values().n_points(); ++q)
+                maximum = std::max(maximum, on_parts.displacement(q).norm());
+              continue;
+            }
           discretization.get_dof_indices(part, dofs);
           for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
             {
@@ -380,6 +393,7 @@ namespace Nacre
     parse_kind(QuantitiesOfInterest::Quantity &quantity,
                Phrase                          phrase,
                const Midsurface               &midsurface,
+               const Cuts                     &cuts,
                const ExactSolution            &exact_solution,
                const Constants                &constants)
     {
@@ -414,6 +428,13 @@ namespace Nacre
         {
           quantity.evaluate = [mode](const SolvedShell &shell) {
             return evaluate_mode_quantity(shell.modes, *mode);
+          };
+          return;
+        }
+      if (const auto of_cut = parse_cut_quantity(phrase, cuts, constants))
+        {
+          quantity.evaluate = [=](const SolvedShell &shell) {
+            return evaluate_cut_quantity(shell, *of_cut);
           };
           return;
         }
@@ -502,7 +523,9 @@ namespace Nacre
       "bottom|middle|top, over the nodes of all cells; in laminates ply "
       "stress|strain 1|2|12 of NUMBER bottom|top at "
       "(point), Tsai-Wu index at (point), maximum stress index at (point), the "
-      "largest of all plies; in dynamics kinetic energy, total energy, "
+      "largest of all plies; of cuts length of CUT, opening "
+      "[x|y|z|normal|(a, b, c)] of CUT at (point), the left lip less the right "
+      "one; in dynamics kinetic energy, total energy, "
       "external work, work "
       "of prescribed motion, dissipation (by mass damping), energy balance "
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
@@ -530,6 +553,8 @@ namespace Nacre
       names.push_back(name);
     for (const auto &kind : ply_kinds())
       names.push_back(kind.first);
+    for (const auto &name : names_of<CutQuantity::Kind>())
+      names.push_back(name);
     for (const auto &name : mode_quantity_names())
       names.push_back(name);
     for (const auto &simple : simple_kinds())
@@ -539,6 +564,7 @@ namespace Nacre
 
   void
   QuantitiesOfInterest::prepare(const Midsurface    &midsurface,
+                                const Cuts          &cuts,
                                 const ExactSolution &exact_solution,
                                 const Constants     &constants)
   {
@@ -575,6 +601,7 @@ namespace Nacre
         parse_kind(quantity,
                    {Text::trim(definition.substr(0, arrow)), where},
                    midsurface,
+                   cuts,
                    exact_solution,
                    constants);
         quantities_.push_back(std::move(quantity));

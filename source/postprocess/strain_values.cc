@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/part_points.h>
 #include <nacre/postprocess/strain_values.h>
 
 #include <cmath>
@@ -9,37 +10,52 @@
 namespace Nacre
 {
   StrainValues::StrainValues(const ShellState      &state,
-                             const Quadrature<dim> &points)
-    : is_linear_(state.model.kinematics.model == KinematicsModel::linear)
+                             const Quadrature<dim> &points,
+                             const bool             spread)
+    : membrane_strain_(state.model.kinematics.membrane_strain)
+    , is_linear_(state.model.kinematics.model == KinematicsModel::linear)
+    , points_(points)
+    , spread_(spread)
     , discretization_(state.discretization)
     , displacement_(state.displacement)
-    , values_(state.discretization,
-              points,
-              recovers_tied_strain(state.model.kinematics.membrane_strain),
-              ShellCellValues::Points::given)
-    , u_(values_.n_dofs())
-    , membrane_(3 * points.size())
-    , bending_(3 * points.size())
+    , u_(state.discretization.node_dofs().size())
   {
-    values_.project_on_parts(state.model.kinematics.membrane_strain !=
-                             MembraneStrain::full);
+    set_points(points);
+  }
+
+  void
+  StrainValues::set_points(const Quadrature<dim> &points)
+  {
+    values_.emplace(discretization_,
+                    points,
+                    recovers_tied_strain(membrane_strain_),
+                    ShellCellValues::Points::given);
+    values_->project_on_parts(membrane_strain_ != MembraneStrain::full);
+    membrane_.reinit(3 * points.size());
+    bending_.reinit(3 * points.size());
   }
 
   void
   StrainValues::reinit(const CellPart &part)
   {
+    const bool was_spread = is_spread_;
+    is_spread_            = spread_ && part.is_cut();
+    if (is_spread_)
+      set_points(Quadrature<dim>(points_on_part(part, points_.get_points())));
+    else if (was_spread)
+      set_points(points_);
     discretization_.get_dof_indices(part, dofs_);
     for (unsigned int i = 0; i < dofs_.size(); ++i)
       u_[i] = displacement_(dofs_[i]);
     if (is_linear_)
       {
-        values_.reinit(part);
-        values_.membrane_rows().vmult(membrane_, u_);
-        values_.bending_rows().vmult(bending_, u_);
+        values_->reinit(part);
+        values_->membrane_rows().vmult(membrane_, u_);
+        values_->bending_rows().vmult(bending_, u_);
       }
     else
       {
-        values_.reinit_frames(part);
+        values_->reinit_frames(part);
         fill_finite_strains();
       }
   }
@@ -48,17 +64,17 @@ namespace Nacre
   StrainValues::displacement(const unsigned int q) const
   {
     Tensor<1, spacedim> u;
-    for (unsigned int a = 0; a < values_.shapes().n_nodes(); ++a)
+    for (unsigned int a = 0; a < values_->shapes().n_nodes(); ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
-        u[c] += values_.shapes().value(q, a) * u_[values_.dof(a, c)];
+        u[c] += values_->shapes().value(q, a) * u_[values_->dof(a, c)];
     return u;
   }
 
   Tensor<1, spacedim>
   StrainValues::normal_change(const unsigned int q) const
   {
-    const auto &frame = values_.frame(q);
-    const auto  phi   = deformed_basis(frame, values_.shapes(), q);
+    const auto &frame = values_->frame(q);
+    const auto  phi   = deformed_basis(frame, values_->shapes(), q);
     if (is_linear_)
       return ShellStrain::normal_change(frame,
                                         {{phi[0] - frame.a_cov[0],
@@ -70,7 +86,7 @@ namespace Nacre
   Tensor<1, spacedim>
   StrainValues::rotation(const unsigned int q) const
   {
-    const auto &t0 = values_.frame(q).t0;
+    const auto &t0 = values_->frame(q).t0;
     const auto  dt = normal_change(q);
     // t0 x t, of the length of the angle's sine.
     const Tensor<1, spacedim> axis = cross_product_3d(t0, dt);
@@ -89,34 +105,35 @@ namespace Nacre
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         for (unsigned int alpha = 0; alpha < dim; ++alpha)
-          phi[alpha][c] += shapes.gradient(q, a)[alpha] * u_[values_.dof(a, c)];
+          phi[alpha][c] +=
+            shapes.gradient(q, a)[alpha] * u_[values_->dof(a, c)];
     return phi;
   }
 
   void
   StrainValues::fill_finite_strains()
   {
-    const auto         &tying = values_.tying();
+    const auto         &tying = values_->tying();
     std::vector<double> samples;
     for (const auto &[point, direction] : tying.samples())
       {
-        const auto &frame = values_.tying_frame(point);
-        const auto  phi = deformed_basis(frame, values_.tying_shapes(), point);
+        const auto &frame = values_->tying_frame(point);
+        const auto  phi = deformed_basis(frame, values_->tying_shapes(), point);
         const auto &a   = frame.a_cov;
         samples.push_back(0.5 * direction[0] * (phi[0] * phi[0] - a[0] * a[0]) +
                           0.5 * direction[1] * (phi[1] * phi[1] - a[1] * a[1]) +
                           direction[2] * (phi[0] * phi[1] - a[0] * a[1]));
       }
-    const auto &shapes = values_.shapes();
-    for (unsigned int q = 0; q < values_.n_points(); ++q)
+    const auto &shapes = values_->shapes();
+    for (unsigned int q = 0; q < values_->n_points(); ++q)
       {
-        const auto &frame = values_.frame(q);
+        const auto &frame = values_->frame(q);
         const auto  phi   = deformed_basis(frame, shapes, q);
         auto        ddphi = frame.a_cov_derivatives;
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             for (unsigned int v = 0; v < 3; ++v)
-              ddphi[v][c] += shapes.hessian(q, a)[v] * u_[values_.dof(a, c)];
+              ddphi[v][c] += shapes.hessian(q, a)[v] * u_[values_->dof(a, c)];
         const Tensor<1, spacedim> area = cross_product_3d(phi[0], phi[1]);
         for (unsigned int v = 0; v < 3; ++v)
           {

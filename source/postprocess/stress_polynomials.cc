@@ -100,41 +100,45 @@ namespace Nacre
     const std::vector<const Displacement *> &displacements)
     : n_displacements_(displacements.size())
     , n_nodes_(discretization.scalar_fe().n_dofs_per_cell())
-    , nodal_(std::size_t(discretization.triangulation().n_active_cells()) *
-             n_displacements_ * n_vectors * n_nodes_)
+    , nodal_(std::size_t(discretization.n_part_indices()) * n_displacements_ *
+             n_vectors * n_nodes_)
   {
-    const auto         quadrature = discretization.element().full_quadrature();
-    ShellCellValues    values(discretization,
+    const auto quadrature = discretization.element().full_quadrature();
+    // On parts the same points of the cell, to which their polynomials go on.
+    ShellCellValues values(discretization,
                            quadrature,
-                           recovers_tied_strain(kinematics.membrane_strain));
+                           recovers_tied_strain(kinematics.membrane_strain),
+                           ShellCellValues::Points::given);
+    values.project_on_parts(kinematics.membrane_strain != MembraneStrain::full);
     const bool         is_linear = kinematics.model == KinematicsModel::linear;
     FiniteCell<double> deformed;
     const auto projection = make_projection(values.shapes(), quadrature);
-    dealii::Vector<double> u(values.n_dofs());
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          is_linear ? values.reinit(cell) : values.reinit_frames(cell);
-          for (unsigned int d = 0; d < n_displacements_; ++d)
-            {
-              cell->get_dof_values(*displacements[d], u);
-              if (!is_linear)
-                deform(values, section, u, deformed);
-              Vector3 *nodal = &nodal_[begin(cell, d)];
-              for (unsigned int q = 0; q < quadrature.size(); ++q)
-                {
-                  const auto vectors = is_linear ?
-                                         vectors_at(values, section, u, q) :
-                                         vectors_of(deformed.deformed(q),
-                                                    deformed.force(q),
-                                                    deformed.moment(q));
-                  for (unsigned int v = 0; v < n_vectors; ++v)
-                    for (unsigned int a = 0; a < n_nodes_; ++a)
-                      nodal[v * n_nodes_ + a] += projection(a, q) * vectors[v];
-                }
-            }
-        }
+    dealii::Vector<double>               u(values.n_dofs());
+    std::vector<types::global_dof_index> dofs;
+    for (const CellPart &part : discretization.relevant_parts())
+      {
+        is_linear ? values.reinit(part) : values.reinit_frames(part);
+        discretization.get_dof_indices(part, dofs);
+        for (unsigned int d = 0; d < n_displacements_; ++d)
+          {
+            for (unsigned int i = 0; i < u.size(); ++i)
+              u[i] = (*displacements[d])(dofs[i]);
+            if (!is_linear)
+              deform(values, section, u, deformed);
+            Vector3 *nodal = &nodal_[begin(part, d)];
+            for (unsigned int q = 0; q < quadrature.size(); ++q)
+              {
+                const auto vectors = is_linear ?
+                                       vectors_at(values, section, u, q) :
+                                       vectors_of(deformed.deformed(q),
+                                                  deformed.force(q),
+                                                  deformed.moment(q));
+                for (unsigned int v = 0; v < n_vectors; ++v)
+                  for (unsigned int a = 0; a < n_nodes_; ++a)
+                    nodal[v * n_nodes_ + a] += projection(a, q) * vectors[v];
+              }
+          }
+      }
   }
 
   std::array<Vector3, 2>

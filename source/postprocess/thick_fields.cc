@@ -111,15 +111,25 @@ namespace Nacre
       n_subdivisions == 0 ? discretization.degree() : n_subdivisions;
     const FlatCells flat = triangles ? cut_triangle(n) : cut_quadrilateral(n);
     const unsigned int n_layers = std::max(state.model.section.n_layers(), 1U);
-    CellResults        results(state, Quadrature<dim>(flat.points), false);
+    CellResults results(state, Quadrature<dim>(flat.points), false, true);
     for (const CellPart &part : discretization.owned_parts())
       {
         results.reinit(part);
         std::vector<PointResults> here;
-        for (unsigned int q = 0; q < flat.points.size(); ++q)
+        for (unsigned int q = 0; q < results.n_points(); ++q)
           here.push_back(results.with_layers(q));
+        // Parts of divided cells have several lattices of points.
+        std::vector<std::vector<unsigned int>> flat_cells;
+        for (unsigned int first = 0; first < here.size();
+             first += flat.points.size())
+          for (auto corners : flat.corners)
+            {
+              for (unsigned int &q : corners)
+                q += first;
+              flat_cells.push_back(corners);
+            }
         for (unsigned int k = 0; k < n_layers; ++k)
-          for (const auto &corners : flat.corners)
+          for (const auto &corners : flat_cells)
             {
               Patch patch;
               patch.patch_index = patches_.size();

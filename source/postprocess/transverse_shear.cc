@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/part_points.h>
 #include <nacre/postprocess/transverse_shear.h>
 
 #include <deal.II/base/qprojector.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace Nacre
 {
@@ -142,128 +144,191 @@ namespace Nacre
       std::vector<std::vector<double>> values_, parts_;
       std::vector<double>              norms_;
     };
-
-    /** The neighbours of a cell across a face, with their face. */
-    std::vector<std::pair<TransverseShear::cell_iterator, unsigned int>>
-    neighbors(const TransverseShear::cell_iterator &cell,
-              const unsigned int                    face)
-    {
-      using Iterator = TransverseShear::cell_iterator;
-      if (cell->at_boundary(face))
-        return {};
-      if (cell->neighbor_is_coarser(face))
-        return {{Iterator(cell->neighbor(face)),
-                 cell->neighbor_of_coarser_neighbor(face).first}};
-      const auto other = cell->neighbor_of_neighbor(face);
-      if (!cell->neighbor(face)->has_children())
-        return {{Iterator(cell->neighbor(face)), other}};
-      return {{Iterator(cell->neighbor_child_on_subface(face, 0)), other},
-              {Iterator(cell->neighbor_child_on_subface(face, 1)), other}};
-    }
   } // namespace
 
-  TransverseShear::TransverseShear(const ShellState      &state,
-                                   const Quadrature<dim> &points)
+  TransverseShear::TransverseShear(const ShellState &state)
     : state_(state)
     , sample_points_(make_sample_points(state.discretization.element()))
     , strains_(state, sample_points_)
-    , points_(state.discretization, points, false)
     , cells_of_vertex_(
         GridTools::vertex_to_cell_map(state.discretization.triangulation()))
-    , samples_(state.discretization.triangulation().n_active_cells())
-    , values_(points.size())
+    , samples_(state.discretization.n_part_indices())
   {}
 
-  const TransverseShear::Samples &
-  TransverseShear::samples(const cell_iterator &cell)
+  Quadrature<dim>
+  TransverseShear::sample_points_of(const CellPart &part) const
   {
-    Samples &samples = samples_[cell->active_cell_index()];
+    const auto &all = sample_points_.get_points();
+    // The middles are those of the cell.
+    const auto middles = all.end() - (part.cell->n_faces() + 1);
+    auto       points  = state_.discretization.degree() == 2 ?
+                           std::vector<Point<dim>>{centroid(part.polygon())} :
+                           points_on_part(part, {all.begin(), middles});
+    points.insert(points.end(), middles, all.end());
+    return Quadrature<dim>(points);
+  }
+
+  const TransverseShear::Samples &
+  TransverseShear::samples(const CellPart &part)
+  {
+    Samples &samples = samples_[part.index()];
     if (!samples.normals.empty())
       return samples;
-    strains_.reinit(cell);
-    const auto        &values  = strains_.values();
-    const unsigned int n_other = cell->n_faces() + 1;
-    const unsigned int n       = sample_points_.size() - n_other;
+    std::optional<StrainValues> of_part;
+    if (part.is_cut())
+      of_part.emplace(state_, sample_points_of(part));
+    StrainValues &strains = of_part ? *of_part : strains_;
+    strains.reinit(part);
+    const auto        &values  = strains.values();
+    const unsigned int n_other = part.cell->n_faces() + 1;
+    const unsigned int n       = values.n_points() - n_other;
     for (unsigned int q = 0; q < n; ++q)
       {
-        const auto answer = state_.section().response(strains_.membrane(q),
-                                                      strains_.bending(q),
+        const auto answer = state_.section().response(strains.membrane(q),
+                                                      strains.bending(q),
                                                       values.frame(q),
                                                       values.point(q));
         samples.positions.push_back(values.point(q));
         samples.moments.emplace_back(symmetrize(
           ShellStrain::resultant_tensor(values.frame(q), answer.moment)));
       }
-    for (unsigned int q = n; q < sample_points_.size(); ++q)
+    for (unsigned int q = n; q < values.n_points(); ++q)
       samples.normals.push_back(values.frame(q).t0);
-    samples.middle = values.point(sample_points_.size() - 1);
+    samples.middle = values.point(values.n_points() - 1);
     return samples;
   }
 
-  std::vector<TransverseShear::Member>
-  TransverseShear::patch(const cell_iterator &cell)
+  std::vector<TransverseShear::Neighbor>
+  TransverseShear::neighbors(const CellPart    &part,
+                             const unsigned int face) const
   {
+    const auto &cell  = part.cell;
+    const auto &parts = state_.discretization.cell_parts();
+    if (cell->at_boundary(face))
+      return {};
+    const cell_iterator neighbor = cell->neighbor(face);
+    if (cell->neighbor_is_coarser(face))
+      return {
+        {parts.part(neighbor), cell->neighbor_of_coarser_neighbor(face).first}};
+    const auto other = cell->neighbor_of_neighbor(face);
+    if (neighbor->has_children())
+      {
+        std::vector<Neighbor> children;
+        for (const unsigned int sub : {0, 1})
+          children.emplace_back(parts.part(cell_iterator(
+                                  cell->neighbor_child_on_subface(face, sub))),
+                                other);
+        return children;
+      }
+    if (neighbor->is_artificial() || !parts.has_pieces(cell, face))
+      return {{parts.part(neighbor), other}};
+    std::vector<Neighbor> result;
+    for (const EdgePiece &piece : parts.pieces_between(cell, face))
+      if (piece.sides[0].part.index() == part.index())
+        result.emplace_back(piece.sides[1].part, other);
+    return result;
+  }
+
+  std::set<unsigned int>
+  TransverseShear::parts_around(const CellPart &part) const
+  {
+    const auto            &cell  = part.cell;
+    const auto            &parts = state_.discretization.cell_parts();
     std::set<unsigned int> around;
     for (const unsigned int v : cell->vertex_indices())
-      for (const auto &other : cells_of_vertex_[cell->vertex_index(v)])
-        if (!other->is_artificial() &&
-            other->material_id() == cell->material_id())
-          around.insert(other->active_cell_index());
-    around.erase(cell->active_cell_index());
+      if (!part.is_cut() ||
+          part.polygon().contains(cell->reference_cell().vertex<dim>(v), 1e-6))
+        for (const auto &other : cells_of_vertex_[cell->vertex_index(v)])
+          if (!other->is_artificial() &&
+              other->material_id() == cell->material_id())
+            {
+              const cell_iterator it(&state_.discretization.triangulation(),
+                                     other->level(),
+                                     other->index(),
+                                     &state_.discretization.dof_handler());
+              for (unsigned int i = 0; i < parts.n_parts(it); ++i)
+                around.insert(parts.part(it, i).index());
+            }
+    if (part.is_cut())
+      for (const unsigned int face : cell->face_indices())
+        for (const auto &[other, other_face] : neighbors(part, face))
+          if (!other.cell->is_artificial() &&
+              other.cell->material_id() == cell->material_id())
+            around.insert(other.index());
+    // A cell that a cut divides is on one side of it.
+    for (unsigned int i = 0; i < parts.n_parts(cell); ++i)
+      around.erase(parts.part(cell, i).index());
+    return around;
+  }
 
-    const Vector3       middle  = samples(cell).normals.back();
-    std::vector<Member> members = {{cell, 1.}};
+  std::vector<TransverseShear::Member>
+  TransverseShear::patch(const CellPart &part)
+  {
+    auto                around  = parts_around(part);
+    const Vector3       middle  = samples(part).normals.back();
+    std::vector<Member> members = {{part, 1.}};
     for (unsigned int i = 0; i < members.size(); ++i)
-      for (const unsigned int face : members[i].cell->face_indices())
-        for (const auto &[other, other_face] : neighbors(members[i].cell, face))
+      for (const unsigned int face : part.cell->face_indices())
+        for (const auto &[other, other_face] : neighbors(members[i].part, face))
           {
-            if (around.count(other->active_cell_index()) == 0)
+            if (around.count(other.index()) == 0)
               continue;
-            const double cosine = samples(members[i].cell).normals[face] *
+            const double cosine = samples(members[i].part).normals[face] *
                                   samples(other).normals[other_face];
             const double sign =
               cosine > 0. ? members[i].sign : -members[i].sign;
             if (std::abs(cosine) < crease ||
                 sign * (middle * samples(other).normals.back()) < bent)
               continue;
-            around.erase(other->active_cell_index());
+            around.erase(other.index());
             members.push_back({other, sign});
           }
     return members;
   }
 
-  void
-  TransverseShear::reinit(const cell_iterator &cell)
+  template <typename Place>
+  std::pair<std::vector<Point<2>>, std::vector<TransverseShear::Moment>>
+  TransverseShear::gather(const std::vector<Member> &members,
+                          const Place               &place)
   {
-    points_.reinit_frames(cell);
-    const auto               members = patch(cell);
-    const Point<spacedim>    origin  = samples(cell).middle;
-    const auto               n       = samples(cell).normals.back();
+    std::vector<Point<2>> places;
+    std::vector<Moment>   moments;
+    for (const bool takes_small : {false, true})
+      if (places.empty())
+        for (const auto &member : members)
+          if (takes_small || !state_.discretization.is_small(member.part))
+            {
+              const Samples &from = samples(member.part);
+              for (const auto &x : from.positions)
+                places.push_back(place(x));
+              for (const auto &M : from.moments)
+                moments.push_back(member.sign * M);
+            }
+    return {places, moments};
+  }
+
+  void
+  TransverseShear::reinit(const CellPart &part, const ShellCellValues &points)
+  {
+    const auto               members = patch(part);
+    const Point<spacedim>    origin  = samples(part).middle;
+    const auto               n       = samples(part).normals.back();
     std::array<Vector3, dim> e;
-    e[0] = points_.frame(0).a_cov[0];
+    e[0] = points.frame(0).a_cov[0];
     e[0] -= (e[0] * n) * n;
     e[0] /= e[0].norm();
     e[1] = cross_product_3d(n, e[0]);
 
     // The cell is of the size 1 in both coordinates.
     std::array<double, dim> size{};
-    for (const auto &x : state_.discretization.geometry_nodes(cell))
+    for (const auto &x : state_.discretization.geometry_nodes(part))
       for (unsigned int i = 0; i < dim; ++i)
         size[i] = std::max(size[i], std::abs((x - origin) * e[i]));
     const auto place = [&](const Point<spacedim> &x) {
       const Vector3 d = x - origin;
       return Point<2>(d * e[0] / size[0], d * e[1] / size[1]);
     };
-    std::vector<Point<2>> places;
-    std::vector<Moment>   moments;
-    for (const auto &member : members)
-      {
-        const Samples &from = samples(member.cell);
-        for (const auto &x : from.positions)
-          places.push_back(place(x));
-        for (const auto &M : from.moments)
-          moments.push_back(member.sign * M);
-      }
+    const auto [places, moments] = gather(members, place);
     const OrthogonalPolynomials polynomials(state_.discretization.degree(),
                                             places);
     std::vector<Moment>         coefficients(polynomials.size());
@@ -271,10 +336,11 @@ namespace Nacre
       for (unsigned int q = 0; q < places.size(); ++q)
         coefficients[i] += polynomials.values(i)[q] * moments[q];
 
+    values_.resize(points.n_points());
     for (unsigned int q = 0; q < values_.size(); ++q)
       {
-        const auto &frame     = points_.frame(q);
-        const auto  gradients = polynomials.gradients(place(points_.point(q)));
+        const auto &frame     = points.frame(q);
+        const auto  gradients = polynomials.gradients(place(points.point(q)));
         Vector3     divergence;
         for (unsigned int b = 0; b < dim; ++b)
           for (unsigned int i = 0; i < polynomials.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/output_file.h>
+#include <nacre/postprocess/cut_output.h>
 #include <nacre/postprocess/hdf5_output.h>
 #include <nacre/postprocess/point_results.h>
 #include <nacre/postprocess/thick_fields.h>
@@ -369,51 +370,58 @@ namespace Nacre
       triangles ?
         Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()) :
         Quadrature<dim>(QIterated<dim>(QTrapezoid<1>(), n));
-    CellResults                 results(state, points, true);
+    CellResults                 results(state, points, true, true);
     const ShellState            moved{discretization,
                            state.model,
                            has_mode_ ? *mode : state.displacement};
     std::optional<StrainValues> mode_values;
     if (has_mode_)
-      mode_values.emplace(moved, points);
-    const auto         list         = fields(n_layers_);
-    const unsigned int n_components = get_dataset_names().size();
-    const double       rank =
+      mode_values.emplace(moved, points, true);
+    const auto                      list = fields(n_layers_);
+    const std::vector<unsigned int> corners =
+      triangles ?
+        std::vector<unsigned int>{0, 1, 2} :
+        std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
+    const double rank =
       Utilities::MPI::this_mpi_process(discretization.communicator());
-
+    Patch patch;
+    patch.reference_cell       = discretization.element().reference_cell();
+    patch.n_subdivisions       = n;
+    patch.points_are_available = true;
+    patch.data.reinit(get_dataset_names().size() + spacedim, points.size());
     for (const CellPart &part : discretization.owned_parts())
       {
         results.reinit(part);
         if (has_mode_)
           mode_values->reinit(part);
-        Patch patch;
-        patch.patch_index          = patches_.size();
-        patch.reference_cell       = part.cell->reference_cell();
-        patch.n_subdivisions       = n;
-        patch.points_are_available = true;
-        patch.data.reinit(n_components + spacedim, points.size());
-        for (unsigned int q = 0; q < points.size(); ++q)
+        // Parts of divided cells have several lattices of points.
+        for (unsigned int first = 0; first < results.n_points();
+             first += points.size())
           {
-            const PointResults here = results.at(q);
-            unsigned int       row  = 0;
-            for (const auto &field : list)
-              for (unsigned int c = 0; c < field.n_components; ++c)
-                patch.data(row++, q) = field.component(here, c);
-            patch.data(row++, q) = rank;
-            if (has_error_indicators_)
-              patch.data(row++, q) = error_indicators[part.index()];
-            for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
-              patch.data(row++, q) = mode_values->displacement(q)[c];
-            for (unsigned int c = 0; c < spacedim; ++c)
-              patch.data(row++, q) = results.position(q)[c];
+            for (unsigned int q = first; q < first + points.size(); ++q)
+              {
+                const PointResults  here = results.at(q);
+                std::vector<double> column;
+                for (const auto &field : list)
+                  for (unsigned int c = 0; c < field.n_components; ++c)
+                    column.push_back(field.component(here, c));
+                column.push_back(rank);
+                if (has_error_indicators_)
+                  column.push_back(
+                    error_indicators[part.cell->active_cell_index()]);
+                for (unsigned int c = 0; c < (has_mode_ ? spacedim : 0); ++c)
+                  column.push_back(mode_values->displacement(q)[c]);
+                for (unsigned int c = 0; c < spacedim; ++c)
+                  column.push_back(results.position(q)[c]);
+                for (unsigned int row = 0; row < column.size(); ++row)
+                  patch.data(row, q - first) = column[row];
+              }
+            for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
+              patch.vertices[vertex] =
+                results.position(first + corners[vertex]);
+            patch.patch_index = patches_.size();
+            patches_.push_back(patch);
           }
-        const std::vector<unsigned int> corners =
-          triangles ?
-            std::vector<unsigned int>{0, 1, 2} :
-            std::vector<unsigned int>{0, n, n * (n + 1), points.size() - 1};
-        for (unsigned int vertex = 0; vertex < corners.size(); ++vertex)
-          patch.vertices[vertex] = results.position(corners[vertex]);
-        patches_.push_back(std::move(patch));
       }
 
     this->set_flags(output_flags());
@@ -529,6 +537,7 @@ namespace Nacre
                                 base)};
     if (options_.thick)
       write_thick(state, folder, name, entry);
+    write_cut_lines(discretization, path_of(folder, name + "_cuts"));
     if (!is_hdf5)
       return write_pvd(communicator, all, records);
     run_on_root(communicator, [&] {

@@ -96,6 +96,11 @@ namespace Nacre
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
+    AssertThrow(problem.model.cuts.is_empty() || max_dofs_ == 1,
+                ExcMessage(section +
+                           "Cycles: cells that cuts (Cuts/Cuts) divide can't "
+                           "be refined yet; set it to 0, or 'Max dofs = 1' "
+                           "to see the estimate of one mesh."));
     check_path(problem.path);
     AssertThrow(!problem.model.section.has_initial_strain(),
                 ExcMessage(section +

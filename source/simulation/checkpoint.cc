@@ -29,7 +29,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 4";
+    const std::string layout = "nacre checkpoint 5";
 
     std::array<Vector *, 3>
     vectors_of(CheckpointData &data)
@@ -56,21 +56,20 @@ namespace Nacre
   } // namespace
 
 
-  /** Values of several vectors at the nodes of this rank's cells, by cell. */
+  /**
+   * Values of several vectors at the nodes of this rank's cells, by cell; of
+   * divided ones for each part.
+   */
   class Checkpoint::CellValues
   {
   public:
-    using CellIterator = DoFHandler<dim, spacedim>::active_cell_iterator;
-
     explicit CellValues(const Discretization &discretization)
       : discretization_(discretization)
-      , dof_handler_(discretization.dof_handler())
       , owned_(discretization.locally_owned_dofs())
-      , dofs_(dof_handler_.get_fe().n_dofs_per_cell())
+      , dofs_(discretization.node_dofs().size())
     {
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-          missing_.emplace(cell->id().to_binary<dim>(), cell);
+      for (const CellPart &part : discretization.owned_parts())
+        missing_.emplace(key_of(part), part);
     }
 
     /** @p vectors are ghosted; one rank's own archive. */
@@ -80,18 +79,17 @@ namespace Nacre
     {
       std::vector<unsigned int> keys;
       std::vector<double>       values;
-      for (const auto &cell : dof_handler_.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            for (const unsigned int part : cell->id().to_binary<dim>())
-              keys.push_back(part);
-            for (const auto &x : discretization_.node_positions(cell))
-              values.insert(values.end(), x.begin_raw(), x.end_raw());
-            cell->get_dof_indices(dofs_);
-            for (const Vector &vector : vectors)
-              for (const auto dof : dofs_)
-                values.push_back(vector(dof));
-          }
+      for (const CellPart &part : discretization_.owned_parts())
+        {
+          for (const unsigned int number : key_of(part))
+            keys.push_back(number);
+          for (const auto &x : discretization_.node_positions(part))
+            values.insert(values.end(), x.begin_raw(), x.end_raw());
+          discretization_.get_dof_indices(part, dofs_);
+          for (const Vector &vector : vectors)
+            for (const auto dof : dofs_)
+              values.push_back(vector(dof));
+        }
       unsigned int           n_dofs = dofs_.size();
       archive &n_dofs &keys &values;
     }
@@ -110,7 +108,7 @@ namespace Nacre
       std::vector<unsigned int> keys;
       std::vector<double>       values;
       archive &n_dofs &keys    &values;
-      CellId::binary_type       key;
+      Key                       key;
       const std::size_t         n_cells  = keys.size() / key.size();
       const std::size_t         n_values = (1 + vectors.size()) * n_dofs;
       AssertThrow(n_dofs == dofs_.size() && values.size() == n_cells * n_values,
@@ -123,7 +121,7 @@ namespace Nacre
           const auto found = missing_.find(key);
           if (found == missing_.end())
             continue;
-          found->second->get_dof_indices(dofs_);
+          discretization_.get_dof_indices(found->second, dofs_);
           auto value = values.begin() + k * n_values;
           check_positions(found->second, &*value, file);
           value += n_dofs;
@@ -145,15 +143,29 @@ namespace Nacre
     }
 
   private:
-    /** Throw if the nodes of the @p cell don't lie at the @p coordinates. */
+    /** Of a cell, and the number of the part. */
+    using Key =
+      std::array<unsigned int, std::tuple_size_v<CellId::binary_type> + 1>;
+
+    static Key
+    key_of(const CellPart &part)
+    {
+      Key        key;
+      const auto cell = part.cell->id().to_binary<dim>();
+      std::copy(cell.begin(), cell.end(), key.begin());
+      key.back() = part.data != nullptr ? part.data->number : 0;
+      return key;
+    }
+
+    /** Throw if the nodes of the @p part don't lie at the @p coordinates. */
     void
-    check_positions(const CellIterator &cell,
-                    const double       *coordinates,
-                    const std::string  &file) const
+    check_positions(const CellPart    &part,
+                    const double      *coordinates,
+                    const std::string &file) const
     {
       // Positions depend on the number of ranks by rounding only.
-      const double tolerance = 1e-6 * cell->diameter();
-      for (const auto &x : discretization_.node_positions(cell))
+      const double tolerance = 1e-6 * part.cell->diameter();
+      for (const auto &x : discretization_.node_positions(part))
         {
           Point<spacedim> other;
           for (unsigned int c = 0; c < spacedim; ++c)
@@ -167,11 +179,10 @@ namespace Nacre
         }
     }
 
-    const Discretization                       &discretization_;
-    const DoFHandler<dim, spacedim>            &dof_handler_;
-    const IndexSet                             &owned_;
-    std::vector<types::global_dof_index>        dofs_;
-    std::map<CellId::binary_type, CellIterator> missing_;
+    const Discretization                &discretization_;
+    const IndexSet                      &owned_;
+    std::vector<types::global_dof_index> dofs_;
+    std::map<Key, CellPart>              missing_;
   };
 
 

@@ -168,6 +168,7 @@ namespace Nacre
                                shell_case,
                                std::move(midsurface)));
     quantities_.prepare(problem_->model.midsurface,
+                        problem_->model.cuts,
                         problem_->model.exact_solution,
                         problem_->constants);
     adaptive_.prepare(*problem_, quantities_);

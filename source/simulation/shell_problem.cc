@@ -266,6 +266,11 @@ namespace Nacre
                 ExcMessage(
                   "Discretization/Assembly: 'reference' knows linear "
                   "analyses in the rotation-jump form only; choose 'fast'."));
+    AssertThrow(problem.assembly == AssemblyMethod::fast ||
+                  problem.model.cuts.is_empty(),
+                ExcMessage(
+                  "Discretization/Assembly: 'reference' knows no cells "
+                  "that cuts (Cuts/Cuts) divide; choose 'fast'."));
     AssertThrow((!problem.path.is_linear() &&
                  !seeks_modes(problem.path.type)) ||
                   !problem.model.foundation.is_nonlinear(),

@@ -4,6 +4,7 @@
 #ifndef nacre_discretization_discretization_h
 #define nacre_discretization_discretization_h
 
+#include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/part_extension.h>
 #include <nacre/problem/element.h>
 
@@ -28,7 +29,6 @@
 
 namespace Nacre
 {
-  struct Cuts;
   class Midsurface;
 
   /** A point of the discrete mid-surface, found by Discretization::locate(). */
@@ -164,6 +164,27 @@ namespace Nacre
     {
       return numbering_->n_dofs();
     }
+
+    /** Whether the part is so small that it follows a larger one. */
+    bool
+    is_small(const CellPart &part) const
+    {
+      return part.data != nullptr && part.data->fraction < smallest_part_;
+    }
+
+    /** The cuts in this rank's cells, each piece once (length). */
+    const std::vector<CutTrace::Line> &
+    cut_lines() const
+    {
+      return cut_lines_;
+    }
+
+    /** The ends of cuts inside the surface, the same on all ranks. */
+    const std::vector<CutTrace::Tip> &
+    tips() const
+    {
+      return tips_;
+    }
     //@}
 
     /** The scalar element whose nodes carry the displacements. */
@@ -232,6 +253,10 @@ namespace Nacre
     SurfacePoint
     locate(const Point<spacedim> &point, const std::string &source) const;
 
+    /** The same without any check: at a slit, on the lip of the lowest cell. */
+    SurfacePoint
+    nearest(const Point<spacedim> &point) const;
+
     /**
      * Mark the mesh as a coarser level of another one. Here locate() takes the
      * nearest point: the finest level has checked what the user states.
@@ -299,6 +324,8 @@ namespace Nacre
 
     CellParts                      parts_;
     double                         smallest_part_ = 0.;
+    std::vector<CutTrace::Line>    cut_lines_;
+    std::vector<CutTrace::Tip>     tips_;
     std::unique_ptr<PartNumbering> numbering_;
     AffineConstraints<double>      node_constraints_;
     std::vector<CellPart>          owned_parts_;

@@ -269,6 +269,13 @@ namespace Nacre
     reinit(const EdgePiece &piece);
 
     /**
+     * A lip of a part: the side @p i of its polygon. It has one side, without
+     * a face.
+     */
+    void
+    reinit_lip(const CellPart &part, const unsigned int i);
+
+    /**
      * Call @p use(*this) for each piece of the edge that @p cell shares with an
      * active neighbour of its size or coarser; never on the boundary and
      * where finer neighbours meet the edge from their side. Over all cells
@@ -463,10 +470,15 @@ namespace Nacre
 
     /**
      * Frames, conormals and lengths at the points of the side's table.
+     * @param along the edge in the reference cell, its length included
+     * @param outward whether along x normal points outward (+1) or inward (-1)
      * @param share of the edge
      */
     void
-    evaluate(const unsigned int side, const double share);
+    evaluate(const unsigned int    side,
+             const Tensor<1, dim> &along,
+             const double          outward,
+             const double          share);
 
     bool
     reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);

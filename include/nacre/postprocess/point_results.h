@@ -116,13 +116,21 @@ namespace Nacre
      * @param points in the reference cell
      * @param with_shear whether transverse shear forces are recovered, which
      *        looks at the neighbours of a cell too
+     * @param spread see StrainValues
      */
     CellResults(const ShellState      &state,
                 const Quadrature<dim> &points,
-                const bool             with_shear);
+                const bool             with_shear,
+                const bool             spread = false);
 
     void
     reinit(const CellPart &part);
+
+    unsigned int
+    n_points() const
+    {
+      return strains_.values().n_points();
+    }
 
     Point<spacedim>
     position(const unsigned int q) const

@@ -68,6 +68,7 @@ namespace Nacre
      */
     void
     prepare(const Midsurface    &midsurface,
+            const Cuts          &cuts,
             const ExactSolution &exact_solution,
             const Constants     &constants);
 

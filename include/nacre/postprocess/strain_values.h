@@ -9,6 +9,8 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <optional>
+
 namespace Nacre
 {
   /**
@@ -24,8 +26,12 @@ namespace Nacre
     /**
      * @param state must live as long
      * @param points in the reference cell
+     * @param spread whether the points are spread over parts of divided cells,
+     *   as points_on_part() does
      */
-    StrainValues(const ShellState &state, const Quadrature<dim> &points);
+    StrainValues(const ShellState      &state,
+                 const Quadrature<dim> &points,
+                 const bool             spread = false);
 
     void
     reinit(const CellPart &part);
@@ -34,7 +40,7 @@ namespace Nacre
     const ShellCellValues &
     values() const
     {
-      return values_;
+      return *values_;
     }
 
     /** Covariant (e11, e22, 2 e12) (length^2). */
@@ -80,14 +86,22 @@ namespace Nacre
                    const ShapeTable     &shapes,
                    const unsigned int    q) const;
 
+    /** Make room for other points. */
+    void
+    set_points(const Quadrature<dim> &points);
+
     void
     fill_finite_strains();
 
+    const MembraneStrain                 membrane_strain_;
     const bool                           is_linear_;
+    const Quadrature<dim>                points_;
+    const bool                           spread_;
+    bool                                 is_spread_ = false;
     const Discretization                &discretization_;
     const TrilinosWrappers::MPI::Vector &displacement_;
     std::vector<types::global_dof_index> dofs_;
-    ShellCellValues                      values_;
+    std::optional<ShellCellValues>       values_;
     Vector<double>                       u_;
     /** [3 point + component] */
     Vector<double> membrane_;

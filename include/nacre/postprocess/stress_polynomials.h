@@ -17,7 +17,8 @@ namespace Nacre
 {
   /**
    * The stress resultants of displacements as polynomials of the reference
-   * cell, on this rank's cells and their ghosts: the vectors of space
+   * cell, on this rank's cells and their ghosts, or the parts of them: the
+   * vectors of space
    *   N^b  = sqrt a (n^ab a_a + m^cd Gamma^b_cd t0)    b = 1, 2
    *   M^ab = sqrt a m^ab t0                            ab = 11, 22, 12
    * of which the internal forces are sqrt a f^b = N^b + M^ab,a. They take the
@@ -31,9 +32,8 @@ namespace Nacre
   class StressPolynomials
   {
   public:
-    using Vector3       = Tensor<1, spacedim>;
-    using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
-    using Displacement  = TrilinosWrappers::MPI::Vector;
+    using Vector3      = Tensor<1, spacedim>;
+    using Displacement = TrilinosWrappers::MPI::Vector;
 
     /**
      * @param displacements ghosted (length)
@@ -43,11 +43,11 @@ namespace Nacre
                       const KinematicsOptions                 &kinematics,
                       const std::vector<const Displacement *> &displacements);
 
-    /** Values of a displacement's polynomials on a cell: [vector][node]. */
+    /** Values of a displacement's polynomials on a part: [vector][node]. */
     const Vector3 *
-    nodal(const cell_iterator &cell, const unsigned int displacement) const
+    nodal(const CellPart &part, const unsigned int displacement) const
     {
-      return &nodal_[begin(cell, displacement)];
+      return &nodal_[begin(part, displacement)];
     }
 
     /** sqrt a f^b (force) at the point @p q of a table. */
@@ -75,16 +75,15 @@ namespace Nacre
     static constexpr unsigned int n_vectors = 5;
 
     std::size_t
-    begin(const cell_iterator &cell, const unsigned int displacement) const
+    begin(const CellPart &part, const unsigned int displacement) const
     {
-      return (std::size_t(cell->active_cell_index()) * n_displacements_ +
-              displacement) *
+      return (std::size_t(part.index()) * n_displacements_ + displacement) *
              n_vectors * n_nodes_;
     }
 
     const unsigned int   n_displacements_;
     const unsigned int   n_nodes_;
-    std::vector<Vector3> nodal_; // [cell][displacement][vector][node]
+    std::vector<Vector3> nodal_; // [part][displacement][vector][node]
   };
 } // namespace Nacre
 

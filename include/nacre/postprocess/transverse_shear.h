@@ -9,6 +9,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace Nacre
@@ -28,7 +29,9 @@ namespace Nacre
    * plane at its middle that is closest to the moments at superconvergent
    * points of the cell and of the cells around it, as far as the surface goes
    * on smoothly and with the same section: not across creases and not into
-   * other regions. After Zienkiewicz and Zhu, Int. J. Numer. Meth. Engng 33
+   * other regions. Parts of divided cells are cells of their own here, which
+   * meet where they share pieces of edges: nothing is taken across a cut. After
+   * Zienkiewicz and Zhu, Int. J. Numer. Meth. Engng 33
    * (1992) 1331.
    */
   class TransverseShear
@@ -37,15 +40,15 @@ namespace Nacre
     using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
     using Vector3       = Tensor<1, spacedim>;
 
-    /**
-     * @param state must live as long
-     * @param points in the reference cell, where it is wanted
-     */
-    TransverseShear(const ShellState &state, const Quadrature<dim> &points);
+    /** @param state must live as long */
+    explicit TransverseShear(const ShellState &state);
 
-    /** A cell of this rank. */
+    /**
+     * A part of this rank.
+     * @param points frames on it, where the force is wanted
+     */
     void
-    reinit(const cell_iterator &cell);
+    reinit(const CellPart &part, const ShellCellValues &points);
 
     /** q in space, for the normal t0 of the cell (force/length). */
     Vector3
@@ -57,7 +60,7 @@ namespace Nacre
   private:
     using Moment = SymmetricTensor<2, spacedim>;
 
-    /** What a patch takes of a cell. */
+    /** What a patch takes of a part. */
     struct Samples
     {
       std::vector<Point<spacedim>> positions;
@@ -67,28 +70,46 @@ namespace Nacre
       std::vector<Vector3> normals;
     };
 
-    /** A cell of a patch; sign = -1: of the opposite orientation. */
+    /** A part of a patch; sign = -1: of the opposite orientation. */
     struct Member
     {
-      cell_iterator cell;
-      double        sign;
+      CellPart part;
+      double   sign;
     };
+
+    /** A neighbour across a face, and its face. */
+    using Neighbor = std::pair<CellPart, unsigned int>;
 
     /** Computed when first asked for. */
     const Samples &
-    samples(const cell_iterator &cell);
+    samples(const CellPart &part);
 
-    /** The cell itself first. */
+    /** Where moments are taken on a part of a divided cell. */
+    Quadrature<dim>
+    sample_points_of(const CellPart &part) const;
+
+    std::vector<Neighbor>
+    neighbors(const CellPart &part, const unsigned int face) const;
+
+    /** The parts at the corners of a part, and behind its edges. */
+    std::set<unsigned int>
+    parts_around(const CellPart &part) const;
+
+    /** The part itself first. */
     std::vector<Member>
-    patch(const cell_iterator &cell);
+    patch(const CellPart &part);
+
+    /** The members' places and moments; small parts follow others. */
+    template <typename Place>
+    std::pair<std::vector<Point<2>>, std::vector<Moment>>
+    gather(const std::vector<Member> &members, const Place &place);
 
     const ShellState      state_;
     const Quadrature<dim> sample_points_;
     StrainValues          strains_;
-    ShellCellValues       points_;
     std::vector<std::set<Triangulation<dim, spacedim>::active_cell_iterator>>
                          cells_of_vertex_;
-    std::vector<Samples> samples_; // by active cell index
+    std::vector<Samples> samples_; // by CellPart::index()
     std::vector<Vector3> values_;
   };
 } // namespace Nacre

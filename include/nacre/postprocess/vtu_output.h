@@ -18,7 +18,9 @@ namespace Nacre
 {
   /**
    * The fields of a solved shell on this rank's cells, at (p + 1)^2 equidistant
-   * points of each: the nodes of VTK's Lagrange cells. Stresses are those of
+   * points of each: the nodes of VTK's Lagrange cells. A part of a divided cell
+   * has such points on each of the quadrilaterals and triangles that make it
+   * up (points_on_part()), so that cuts open. Stresses are those of
    * each cell by itself, not smoothed. deal.II's writers of all formats work on
    * it.
    *
@@ -70,8 +72,9 @@ namespace Nacre
                 const TrilinosWrappers::MPI::Vector *mode = nullptr);
 
     /**
-     * One patch for each of this rank's cells; data[component][point], points
-     * in lexicographic order, the three last components are the position.
+     * One patch for each of this rank's cells, of a part one or more;
+     * data[component][point], points in lexicographic order, the three last
+     * components are the position.
      */
     const std::vector<Patch> &
     get_patches() const override;
@@ -116,7 +119,8 @@ namespace Nacre
    *
    * The label tells what a file holds; by default it is the counter. The
    * files of ThickFields are always .vtu, `NAME_thick_LABEL.vtu`, listed by
-   * `NAME_thick.pvd`.
+   * `NAME_thick.pvd`; `NAME_cuts.vtu` holds the cuts of the mesh that was
+   * written last, as lines.
    *
    * In ParaView open the list and use "Warp By Vector" with the displacement.
    */
