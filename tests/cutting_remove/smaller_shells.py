@@ -18,7 +18,7 @@ import run_study  # noqa: E402
 BASE = """\
 set Title = Shell
 subsection Study
-  set Degrees     = 2, 3
+  set Degrees     = 3
   set Refinements = 0, 1
   set Write VTU   = false
 end
@@ -79,7 +79,7 @@ CASES = {
     }, {
         "Mid-surface/Subdivisions": "8, 6",
         "Mid-surface/cylinder/Axial range": "0, 3",
-        "Cuts/Cuts": "cut: uv (0, 1) (2*pi, 1)",
+        "Cuts/Cuts": "cut: uv (0, 1) (360, 1)",
         "Cuts/Remove": "(0, 1, 1.3)",
     }, {
         "Mid-surface/Subdivisions": "8, 2",
