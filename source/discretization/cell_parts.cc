@@ -131,9 +131,38 @@ namespace Nacre
     entries_.back().parts[0].index = k;
   }
 
+  void
+  CellParts::remove(const DoFHandler<dim, spacedim> &dof_handler,
+                    const std::vector<bool>         &is_removed)
+  {
+    AssertDimension(is_removed.size(), n_indices_);
+    are_removed_ = true;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        touch(cell);
+    for (const auto &cell : touched_cells_)
+      {
+        Entry &entry = entries_[entry_of_cell_[cell->active_cell_index()]];
+        std::vector<PartData> rest;
+        for (const PartData &part : entry.parts)
+          if (!is_removed[part.index])
+            {
+              rest.push_back(part);
+              rest.back().number = rest.size() - 1;
+            }
+        entry.is_cut |= rest.size() < entry.parts.size();
+        entry.parts = rest;
+        if (!rest.empty())
+          entry.parts.front().index = cell->active_cell_index();
+      }
+  }
+
   std::vector<EdgePiece>
   CellParts::pieces_between(const Cell &cell, const unsigned int face) const
   {
+    // The neighbours of a removed cell may be of any size.
+    if (n_parts(cell) == 0)
+      return {};
     const Cell neighbor = cell->neighbor(face);
     if (neighbor->is_artificial())
       return {};

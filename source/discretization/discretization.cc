@@ -3,12 +3,15 @@
 
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/nodal_mapping.h>
+#include <nacre/discretization/removed_parts.h>
 #include <nacre/problem/cuts.h>
 #include <nacre/problem/midsurface.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/mapping_q_cache.h>
+
+#include <optional>
 
 namespace Nacre
 {
@@ -70,6 +73,8 @@ namespace Nacre
                            std::to_string(mapping_degree) +
                            "; with cuts the geometry is isoparametric, 0."));
     cut(midsurface, cuts);
+    if (!cuts.remove.empty())
+      remove(cuts.remove);
     number_dofs();
   }
 
@@ -128,7 +133,15 @@ namespace Nacre
   }
 
   void
-  Discretization::number_dofs()
+  Discretization::remove(const std::vector<Point<spacedim>> &points)
+  {
+    // What is removed may be too small for lines of its own.
+    number_dofs(false);
+    parts_.remove(dof_handler_, find_removed_parts(*this, points));
+  }
+
+  void
+  Discretization::number_dofs(const bool extends_parts)
   {
     numbering_ = std::make_unique<PartNumbering>(dof_handler_,
                                                  face_nodes_,
@@ -137,7 +150,7 @@ namespace Nacre
     if (parts_.is_empty())
       node_constraints_ = make_hanging_node_constraints(dof_handler_);
     else
-      constrain_parts();
+      constrain_parts(extends_parts);
     owned_parts_.clear();
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -146,28 +159,33 @@ namespace Nacre
   }
 
   void
-  Discretization::constrain_parts()
+  Discretization::constrain_parts(const bool extends_parts)
   {
-    const PartExtension extension(
-      dof_handler_,
-      *scalar_fe_,
-      node_dofs_,
-      smallest_part_,
-      [this](const CellPart &part) { return node_positions(part); },
-      *numbering_,
-      parts_);
+    std::optional<PartExtension> extension;
+    if (extends_parts)
+      extension.emplace(
+        dof_handler_,
+        *scalar_fe_,
+        node_dofs_,
+        smallest_part_,
+        [this](const CellPart &part) { return node_positions(part); },
+        *numbering_,
+        parts_);
     node_constraints_.reinit(locally_relevant_dofs());
     for (const auto &line :
          make_hanging_node_constraints(dof_handler_).get_lines())
       {
         const auto dof = numbering_->number_of(line.index);
+        if (dof == numbers::invalid_dof_index)
+          continue; // removed
         node_constraints_.add_line(dof);
         for (const auto &[master, weight] : line.entries)
           node_constraints_.add_entry(dof,
                                       numbering_->number_of(master),
                                       weight);
       }
-    extension.add_to(node_constraints_);
+    if (extension)
+      extension->add_to(node_constraints_);
     if (Utilities::MPI::n_mpi_processes(communicator()) > 1)
       node_constraints_.make_consistent_in_parallel(locally_owned_dofs(),
                                                     locally_relevant_dofs(),

@@ -323,7 +323,11 @@ namespace Nacre
         std::find_if(all.begin(), all.end(), [&](const auto &candidate) {
           return candidate.distance <= smallest + 1e-6 * candidate.size;
         });
-      Assert(best != all.end(), ExcInternalError());
+      // Where pieces are removed, no part may be near.
+      AssertThrow(best != all.end(),
+                  ExcMessage(source + ": the point lies off the mid-surface, "
+                                      "in a piece that is taken away "
+                                      "(Cuts/Remove)."));
       if (checks)
         {
           check_distance(*best, source);

@@ -104,7 +104,7 @@ namespace Nacre
                    << cell->center() << "): no part of it has a fraction of "
                    << smallest_part_
                    << " of a cell (Cuts/Smallest part). Refine the mesh there, "
-                      "or leave the piece out.";
+                      "or take the piece away (Cuts/Remove).";
               message = text.str();
             }
     for (const auto &of_rank :

@@ -52,6 +52,7 @@ namespace Nacre
     , old_starts_(starts_of_ranks(dof_handler.n_locally_owned_dofs(),
                                   dof_handler.get_communicator()))
     , new_starts_(old_starts_)
+    , are_removed_(parts.are_removed())
   {
     if (parts.is_empty())
       {
@@ -69,6 +70,12 @@ namespace Nacre
   types::global_dof_index
   PartNumbering::number_of(const types::global_dof_index dof) const
   {
+    if (are_removed_)
+      {
+        const auto found = numbers_.find(dof);
+        return found != numbers_.end() ? found->second :
+                                         numbers::invalid_dof_index;
+      }
     const auto rank =
       std::upper_bound(old_starts_.begin(), old_starts_.end(), dof) -
       old_starts_.begin() - 1;
@@ -141,11 +148,14 @@ namespace Nacre
       for (unsigned int i = 0; i < parts.n_parts(cells[k]); ++i)
         for (unsigned int a = 0; a < n_nodes_; ++a)
           {
-            const Dof dof = cell_dofs[k][node_dofs_[spacedim * a]];
-            if (on_cut_cell.count(dof) == 0)
+            const Dof  dof            = cell_dofs[k][node_dofs_[spacedim * a]];
+            const bool is_on_cut_cell = on_cut_cell.count(dof) > 0;
+            if (!is_on_cut_cell && !are_removed_)
               continue;
             const unsigned int set =
-              joined.set_of(first_number.at(cells[k]->id()) + i * n_nodes_ + a);
+              is_on_cut_cell ? joined.set_of(first_number.at(cells[k]->id()) +
+                                             i * n_nodes_ + a) :
+                               0;
             by_set[dof][set].members.push_back({cells[k], i, a});
           }
 
@@ -183,7 +193,8 @@ namespace Nacre
           const bool a_has = has_owner(a), b_has = has_owner(b);
           return a_has != b_has ? a_has : a.lowest < b.lowest;
         });
-        list.front().owner = dof_owner;
+        if (has_owner(list.front())) // else the owner's parts are removed
+          list.front().owner = dof_owner;
       }
     return copies;
   }
@@ -193,10 +204,12 @@ namespace Nacre
   {
     const auto communicator = dof_handler_.get_communicator();
     const auto me           = Utilities::MPI::this_mpi_process(communicator);
+    // Removed first copies leave no gaps: the others are numbered anew.
+    const unsigned int first_new = are_removed_ ? 0 : 1;
     // Copies of an edge's or a cell's inner nodes get consecutive numbers.
     std::map<std::pair<unsigned int, Dof>, Dof> extra;
     for (const auto &[dof, list] : copies)
-      for (unsigned int k = 1; k < list.size(); ++k)
+      for (unsigned int k = first_new; k < list.size(); ++k)
         if (list[k].owner == me)
           {
             const PartNode  &member = list[k].members.front();
@@ -205,7 +218,7 @@ namespace Nacre
             for (unsigned int c = 0; c < spacedim; ++c)
               extra[{k, dofs[node_dofs_[spacedim * member.node + c]]}] = 0;
           }
-    const Dof n_base = dof_handler_.n_locally_owned_dofs();
+    const Dof n_base = are_removed_ ? 0 : dof_handler_.n_locally_owned_dofs();
     new_starts_      = starts_of_ranks(n_base + extra.size(), communicator);
     Dof next         = new_starts_[me] + n_base;
     for (auto &entry : extra)
@@ -221,8 +234,8 @@ namespace Nacre
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const Dof base = dofs[node_dofs_[spacedim * member.node + c]];
-                list[k].dofs.push_back(k == 0 ? number_of(base) :
-                                                extra.at({k, base}));
+                list[k].dofs.push_back(k < first_new ? number_of(base) :
+                                                       extra.at({k, base}));
               }
           }
   }
@@ -332,7 +345,15 @@ namespace Nacre
           continue;
         if (parts.is_touched(cell))
           for (const auto &part : parts.parts(cell))
-            all.insert(all.end(), part.dofs.begin(), part.dofs.end());
+            {
+              all.insert(all.end(), part.dofs.begin(), part.dofs.end());
+              if (are_removed_ && !parts.is_cut(cell))
+                {
+                  cell->get_dof_indices(dofs);
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    numbers_[dofs[i]] = part.dofs[i];
+                }
+            }
         else
           {
             cell->get_dof_indices(dofs);

@@ -33,7 +33,7 @@ namespace Nacre
 
     /** Throws if rigid motions are left free, naming them. */
     void
-    check_supports(const DisplacementConditions &conditions)
+    check_supports(const DisplacementConditions &conditions, const Cuts &cuts)
     {
       const auto motions = conditions.free_rigid_motions();
       if (motions.empty())
@@ -42,8 +42,12 @@ namespace Nacre
       for (const auto &motion : motions)
         text += (&motion == &motions.front() ? " " : "; ") + motion;
       AssertThrow(false,
-                  ExcMessage(text + ". Prescribe more on its edges, or at "
-                                    "points."));
+                  ExcMessage(text +
+                             ". Prescribe more on its edges, or at points" +
+                             (cuts.is_empty() ?
+                                "." :
+                                "; a piece that the cuts separate can be taken "
+                                "away (Cuts/Remove).")));
     }
   } // namespace
 
@@ -63,7 +67,7 @@ namespace Nacre
   {
     // Inertia holds a shell as well.
     if (!problem.path.has_inertia())
-      check_supports(conditions_);
+      check_supports(conditions_, problem.model.cuts);
     warn_of_penalty(log);
     solver_ = make_solver(n_right_hand_sides, log);
     report_memory(discretization_,

@@ -21,6 +21,8 @@ namespace Nacre
    * along which no cut runs. Cells that a cut divides or whose edges it opens
    * are *cut*; those that share a vertex with them are *touched*, since their
    * nodes may have several copies. Of all others nothing is stored.
+   *
+   * Parts that are removed exist no more: a cell may have no parts at all.
    */
   class CellParts
   {
@@ -48,7 +50,8 @@ namespace Nacre
                               numbers::invalid_unsigned_int;
     }
 
-    /** Whether a cut divides the cell or opens one of its edges. */
+    /** Whether a cut divides the cell or opens one of its edges, or parts of
+     * it have been removed. */
     bool
     is_cut(const Cell &cell) const
     {
@@ -101,6 +104,21 @@ namespace Nacre
     void
     touch(const Cell &cell);
 
+    /**
+     * Take parts away and make all other cells touched ones.
+     * @param is_removed by CellPart::index(), of this rank's parts and ghosts
+     */
+    void
+    remove(const DoFHandler<dim, spacedim> &dof_handler,
+           const std::vector<bool>         &is_removed);
+
+    /** Whether parts have been removed, on whatever rank. */
+    bool
+    are_removed() const
+    {
+      return are_removed_;
+    }
+
     /** Touched cells; their parts may be completed. */
     const std::vector<Cell> &
     touched_cells() const
@@ -136,7 +154,8 @@ namespace Nacre
     std::vector<Cell>         touched_cells_;
     std::vector<unsigned int> entry_of_cell_;
     std::vector<Entry>        entries_;
-    unsigned int              n_indices_ = 0;
+    unsigned int              n_indices_   = 0;
+    bool                      are_removed_ = false;
   };
 } // namespace Nacre
 

@@ -305,13 +305,20 @@ namespace Nacre
     void
     cut(const Midsurface &midsurface, const Cuts &cuts);
 
+    /** Take away the pieces of the cut shell that hold @p points (length). */
+    void
+    remove(const std::vector<Point<spacedim>> &points);
+
     /** Number the dofs of all parts. */
     void
-    number_dofs();
+    number_dofs(const bool extends_parts = true);
 
-    /** Set node_constraints_ of a mesh with cuts. */
+    /**
+     * Set node_constraints_ of a mesh with cuts.
+     * @param extends_parts whether small parts follow larger ones
+     */
     void
-    constrain_parts();
+    constrain_parts(const bool extends_parts);
 
     std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> triangulation_;
 

@@ -9,6 +9,7 @@
 #include <deal.II/base/index_set.h>
 
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace Nacre
@@ -31,6 +32,9 @@ namespace Nacre
    * their owner, whose further copies follow at the end of its range. A copy
    * belongs to the rank of the lowest of its cells, the first one to the rank
    * that has the DoFHandler's dofs.
+   *
+   * Where parts are removed, their dofs don't exist: the dofs that remain keep
+   * the order of the DoFHandler's, those of first copies before the others.
    */
   class PartNumbering
   {
@@ -45,7 +49,10 @@ namespace Nacre
                   const std::vector<unsigned int>              &node_dofs,
                   CellParts                                    &parts);
 
-    /** All parts that hold a copy, of nodes of this rank's cut cells. */
+    /**
+     * All parts that hold a copy, of nodes of this rank's cut cells; of all its
+     * nodes where parts are removed.
+     */
     using Copies = std::vector<std::vector<PartNode>>;
 
     const Copies &
@@ -73,7 +80,10 @@ namespace Nacre
       return locally_relevant_dofs_;
     }
 
-    /** The number of a dof of the DoFHandler that keeps its place. */
+    /**
+     * The number of a dof of the DoFHandler that has no further copies;
+     * invalid for a removed one.
+     */
     types::global_dof_index
     number_of(const types::global_dof_index dof) const;
 
@@ -82,7 +92,10 @@ namespace Nacre
 
     struct Copy;
 
-    /** The copies of each node of cut cells, by the node's first dof. */
+    /**
+     * The copies of each node of cut cells, where parts are removed of each
+     * node, by the node's first dof.
+     */
     std::map<Dof, std::vector<Copy>>
     find_copies(const CellParts &parts) const;
 
@@ -109,6 +122,9 @@ namespace Nacre
     IndexSet         locally_owned_dofs_;
     IndexSet         locally_relevant_dofs_;
     Copies           copies_;
+    /** Where parts are removed: the numbers of dofs of uncut cells. */
+    bool                         are_removed_ = false;
+    std::unordered_map<Dof, Dof> numbers_;
   };
 } // namespace Nacre
 

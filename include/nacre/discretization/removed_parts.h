@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_removed_parts_h
+#define nacre_discretization_removed_parts_h
+
+#include <nacre/discretization/discretization.h>
+
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * Which parts belong to the components of the cut shell that hold one of @p
+   * points (length): by CellPart::index(), of this rank's parts and its ghosts.
+   * Throws for a point off the surface, one on a lip, one in a shell that the
+   * cuts leave in one component, and if no component is left. Collective.
+   */
+  std::vector<bool>
+  find_removed_parts(const Discretization               &discretization,
+                     const std::vector<Point<spacedim>> &points);
+} // namespace Nacre
+
+#endif
