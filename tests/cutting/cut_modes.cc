@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// Cut shells: as many rigid motions as the pieces have, and a matrix that is
-// well conditioned wherever a cut runs.
+// Cut shells: as many rigid motions as the pieces have, a matrix that is well
+// conditioned wherever a cut runs, cuts along the edges of cells.
 
 #include "cut_shell.h"
 
@@ -84,6 +84,20 @@ namespace
             }
       }
   }
+
+  /** A cut along edges of cells is a mesh whose nodes are double there. */
+  void
+  test_seam(const Element &element)
+  {
+    const CutShell cut(square, element, {line("cut", {{.5, 1.1}, {.5, -.1}})});
+    const CutShell half(surface_text("u, v, 0", 2, 4, "0, 0.5"), element, {});
+    const auto     values     = scaled_eigenvalues(cut);
+    const auto     expected   = scaled_eigenvalues(half);
+    double         difference = values.size() == 2 * expected.size() ? 0. : 1.;
+    for (unsigned int k = 0; k < values.size(); ++k)
+      difference = std::max(difference, std::abs(values[k] - expected[k / 2]));
+    check_below("seam, " + label(element) + ": eigenvalues", difference, 1e-12);
+  }
 } // namespace
 
 int
@@ -91,5 +105,8 @@ main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_conditions();
+  for (const auto &element :
+       {Element{ElementType::lagrange, 2}, serendipity, triangle})
+    test_seam(element);
   return n_failures > 0;
 }
