@@ -106,3 +106,9 @@ case("cut_no_chart",
      "slit: uv (0, 0.5) (1, 0.5)")
 CASES["cut_no_chart"]["settings"].update({
     "Mid-surface/Surface": "disk", "Boundary conditions/Edges": "rim: fixed"})
+case("cut_piece_without_support",
+     ["the shell can move freely", "of the piece around"],
+     "slit: uv (a/2, -0.1) (a/2, 1.1)")
+case("cut_along_the_edge",
+     ["Cuts/Cuts, 'slit'", "no part of the cut lies inside the surface"],
+     "slit: uv (0, -0.1) (0, 1.1)")

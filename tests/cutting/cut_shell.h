@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_tests_cut_shell_h
+#define nacre_tests_cut_shell_h
+
+// A shell that cuts divide, for tests of its forms.
+
+#include "../finite/finite_shell.h"
+#include <nacre/problem/cuts.h>
+
+namespace CutShells
+{
+  constexpr auto uv = CutCurve::Coordinates::chart;
+
+  inline CutCurve
+  line(const std::string &name, const std::vector<Point<3>> &points)
+  {
+    return {name, uv, points, false};
+  }
+
+  inline std::string
+  surface_text(const std::string &position,
+               const unsigned int n_u,
+               const unsigned int n_v,
+               const std::string &range_u = "0, 1",
+               const std::string &section = section_text(1000., 0.3, 0.1))
+  {
+    return "subsection Mid-surface\n set Surface = expression\n"
+           " set Subdivisions = " +
+           std::to_string(n_u) + ", " + std::to_string(n_v) +
+           "\n subsection expression\n  set Position = " + position +
+           "\n  set Range u = " + range_u + "\n end\nend\n" + section;
+  }
+
+  /** A shell and its parts. */
+  struct CutShell
+  {
+    CutShell(const std::string           &text,
+             const Element               &element,
+             const std::vector<CutCurve> &curves,
+             const KinematicsOptions     &options = {})
+      : parameters(text)
+    {
+      Cuts cuts;
+      cuts.curves       = curves;
+      const auto &model = parameters.model;
+      discretization    = std::make_unique<Discretization>(
+        model.midsurface.create_triangulation(MPI_COMM_WORLD,
+                                              element.reference_cell(),
+                                              0),
+        model.midsurface,
+        element,
+        0,
+        cuts);
+      KinematicsOptions kinematics = options;
+      if (element.type == ElementType::serendipity)
+        kinematics.membrane_strain = MembraneStrain::reduced;
+      assembly = std::make_unique<Assembly>(*discretization,
+                                            ShellParts(parameters.section,
+                                                       model.supports,
+                                                       model.loads,
+                                                       kinematics,
+                                                       {}));
+    }
+
+    /** Nodal values of a field of each part. */
+    TrilinosVector
+    interpolate(const std::function<Vector3(const CellPart &, const Point<3> &)>
+                  &field) const
+    {
+      auto                                 u = zero_vector(*discretization);
+      std::vector<types::global_dof_index> dofs;
+      for (const CellPart &part : discretization->owned_parts())
+        {
+          discretization->get_dof_indices(part, dofs);
+          const auto nodes = discretization->node_positions(part);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            {
+              const auto value = field(part, nodes[a]);
+              for (unsigned int c = 0; c < 3; ++c)
+                u(dofs[discretization->node_dofs()[3 * a + c]]) = value[c];
+            }
+        }
+      u.compress(VectorOperation::insert);
+      return u;
+    }
+
+    /** Dofs of parts that meet the boundary, or that these follow. */
+    std::vector<bool>
+    boundary_dofs() const
+    {
+      std::vector<bool> result(discretization->n_dofs(), false);
+      std::vector<types::global_dof_index> dofs;
+      for (const CellPart &part : discretization->owned_parts())
+        for (const unsigned int face : part.cell->face_indices())
+          if (part.cell->at_boundary(face) &&
+              !discretization->cell_parts().pieces_of(part, face).empty())
+            {
+              discretization->get_dof_indices(part, dofs);
+              for (const auto dof : dofs)
+                {
+                  result[dof] = true;
+                  const auto entries =
+                    discretization->node_constraints().get_constraint_entries(
+                      dof);
+                  if (entries != nullptr)
+                    for (const auto &entry : *entries)
+                      result[entry.first] = true;
+                }
+            }
+      return result;
+    }
+
+    TextModel                       parameters;
+    std::unique_ptr<Discretization> discretization;
+    std::unique_ptr<Assembly>       assembly;
+  };
+} // namespace CutShells
+
+#endif
