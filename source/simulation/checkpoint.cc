@@ -85,6 +85,7 @@ namespace Nacre
             keys.push_back(number);
           for (const auto &x : discretization_.node_positions(part))
             values.insert(values.end(), x.begin_raw(), x.end_raw());
+          values.push_back(fraction_of(part));
           discretization_.get_dof_indices(part, dofs_);
           for (const Vector &vector : vectors)
             for (const auto dof : dofs_)
@@ -110,7 +111,7 @@ namespace Nacre
       archive &n_dofs &keys    &values;
       Key                       key;
       const std::size_t         n_cells  = keys.size() / key.size();
-      const std::size_t         n_values = (1 + vectors.size()) * n_dofs;
+      const std::size_t         n_values = (1 + vectors.size()) * n_dofs + 1;
       AssertThrow(n_dofs == dofs_.size() && values.size() == n_cells * n_values,
                   ExcMessage(file + "' is of another element: " +
                              std::to_string(n_dofs) + " unknowns a cell, and " +
@@ -125,6 +126,10 @@ namespace Nacre
           auto value = values.begin() + k * n_values;
           check_positions(found->second, &*value, file);
           value += n_dofs;
+          AssertThrow(std::abs(*value - fraction_of(found->second)) <= 1e-6,
+                      ExcMessage(file + "' is of a shell with other cuts "
+                                        "(Cuts/Cuts)."));
+          ++value;
           for (Vector *const vector : vectors)
             for (const auto dof : dofs_)
               {
@@ -155,6 +160,13 @@ namespace Nacre
       std::copy(cell.begin(), cell.end(), key.begin());
       key.back() = part.data != nullptr ? part.data->number : 0;
       return key;
+    }
+
+    /** Of its cell. */
+    static double
+    fraction_of(const CellPart &part)
+    {
+      return part.data != nullptr ? part.data->fraction : 1.;
     }
 
     /** Throw if the nodes of the @p part don't lie at the @p coordinates. */

@@ -54,7 +54,11 @@ namespace Nacre
                            "on with --restart."));
     CheckpointData data;
     Checkpoint     checkpoint(discretization, base.string(), where);
-    checkpoint.load(data, [](const ProblemRecord &) { return std::string(); });
+    checkpoint.load(data, [&](const ProblemRecord &then) {
+      return has_changed("Cuts/Cuts", then, problem) ?
+               "its 'Cuts/Cuts' are others" :
+               std::string();
+    });
     // Of an arc-length path v is no velocity but the path's tangent.
     const auto type = data.problem.parameters.find("Analysis/Type");
     if (type != data.problem.parameters.end() &&
