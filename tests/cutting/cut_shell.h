@@ -64,7 +64,7 @@ namespace CutShells
                                                        {}));
     }
 
-    /** Nodal values of a field of each part. */
+    /** Nodal values of a field of each part; followers follow. */
     TrilinosVector
     interpolate(const std::function<Vector3(const CellPart &, const Point<3> &)>
                   &field) const
@@ -83,6 +83,7 @@ namespace CutShells
             }
         }
       u.compress(VectorOperation::insert);
+      discretization->node_constraints().distribute(u);
       return u;
     }
 
