@@ -58,10 +58,11 @@ public:
                            cell->face(f)->boundary_id(),
                            u);
             }
-          else if ((cell->neighbor(f)->level() < cell->level() ||
-                    cell < cell->neighbor(f)) &&
-                   edge_.reinit_to_neighbor(cell, f))
-            add_edge(penalty_.interior(cell, cell->neighbor(f)), nullptr, u);
+          else if (cell->neighbor(f)->level() < cell->level() ||
+                   cell < cell->neighbor(f))
+            edge_.for_pieces_to_neighbor(cell, f, [&](const auto &) {
+              add_edge(penalty_.interior(cell, cell->neighbor(f)), nullptr, u);
+            });
       }
   }
 

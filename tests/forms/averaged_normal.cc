@@ -177,7 +177,7 @@ test_crease(const Parameters &parameters)
       values[i] = averaged.u(i);
       forces[i] = averaged.residual(i);
     }
-  const auto &constraints = discretization->hanging_node_constraints();
+  const auto &constraints = discretization->node_constraints();
   constraints.condense(forces);
   constraints.set_zero(values);
   averaged.matrix.vmult(product, values);

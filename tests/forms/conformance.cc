@@ -229,7 +229,7 @@ test_samples(const Json                      &record,
                          Quadrature<2>(points,
                                        std::vector<double>(points.size(), 1.)),
                          false);
-  values.reinit(discretization.triangulation().begin_active());
+  values.reinit(discretization.dof_handler().begin_active());
 
   unsigned int q = 0;
   for (const auto &sample : record.get_child("samples"))
@@ -255,13 +255,13 @@ test_space_hessian(const std::string    &name,
 {
   const auto      quadrature = discretization.element().full_quadrature();
   ShellCellValues values(discretization, quadrature, false);
-  values.reinit(discretization.triangulation().begin_active());
+  values.reinit(discretization.dof_handler().begin_active());
   FEValues<2, 3> fe_values(discretization.mapping(),
                            discretization.scalar_fe(),
                            quadrature,
                            update_hessians);
   fe_values.reinit(static_cast<Triangulation<2, 3>::cell_iterator>(
-    discretization.triangulation().begin_active()));
+    discretization.dof_handler().begin_active()));
   double error = 0., size = 0.;
   for (unsigned int q = 0; q < quadrature.size(); ++q)
     for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)

@@ -210,7 +210,7 @@ test_points(const std::string         &name,
                        Point<2>(xi[k], xi[k + 1]) :
                        Point<2>(0.5 * (xi[k] + 1.), 0.5 * (xi[k + 1] + 1.)));
   ShellCellValues values(*mesh.discretization, Quadrature<2>(points), false);
-  values.reinit_frames(mesh.discretization->triangulation().begin_active());
+  values.reinit_frames(mesh.discretization->dof_handler().begin_active());
   NodeVectors<double> u_cell;
   for (const unsigned int k : mesh.cell_nodes(0))
     u_cell.push_back(u[k]);

@@ -51,7 +51,7 @@ test_mesh(const std::string    &name,
   const auto     where =
     name + ", " + label(element) + ", " + name_of(membrane_strain);
 
-  const auto  &constraints = discretization->hanging_node_constraints();
+  const auto  &constraints = discretization->node_constraints();
   const auto   system  = dense_system(*discretization, assembly, constraints);
   const auto   values  = eigenvalues(system.first, constraints);
   const double largest = values[values.size() - 1];

@@ -115,7 +115,7 @@ test(const KinematicsModel model)
   const GrownShell shell(strange, mesh, model);
   TrilinosVector   u = interpolate(*shell.discretization, some_field);
   u *= 0.4;
-  const auto    &hanging = shell.discretization->hanging_node_constraints();
+  const auto    &hanging = shell.discretization->node_constraints();
   TrilinosVector direction(u);
   for (unsigned int i = 0; i < u.size(); ++i)
     direction(i) = std::sin(3. * i + 1.);

@@ -116,7 +116,7 @@ test_element(const KinematicsModel model,
   for (unsigned int i = 0; i < u.size(); ++i)
     direction(i) = std::sin(3. * i + 1.);
   direction.compress(VectorOperation::insert);
-  shell.discretization->hanging_node_constraints().distribute(direction);
+  shell.discretization->node_constraints().distribute(direction);
   // Central differences of two steps, extrapolated: an error of step^4
   const auto slope = [&](const double step) {
     TrilinosVector plus(u), minus(u);
@@ -133,7 +133,7 @@ test_element(const KinematicsModel model,
   // At the dofs that are free: the angle at an edge is one of surfaces that
   // meet there, and so are its derivatives.
   std::vector<double> error(u.size()), size_of(u.size());
-  const auto &constraints = shell.discretization->hanging_node_constraints();
+  const auto         &constraints = shell.discretization->node_constraints();
   for (unsigned int i = 0; i < u.size(); ++i)
     {
       double sum = 0.;

@@ -36,7 +36,7 @@ namespace
                                        MembraneStrain::tied,
                                        {}));
     TrilinosWrappers::SparseMatrix matrix;
-    assembly.reinit_matrix(discretization->hanging_node_constraints(), matrix);
+    assembly.reinit_matrix(discretization->node_constraints(), matrix);
     const double entries = 1. * matrix.n_nonzero_elements() / matrix.m();
     const double share   = 1. - entries / entries_per_row(degree);
     check_above("p = " + std::to_string(degree) +

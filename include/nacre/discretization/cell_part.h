@@ -47,6 +47,11 @@ namespace Nacre
       : cell(cell)
     {}
 
+    /** The same of a cell's neighbour, say, which is active. */
+    CellPart(const DoFHandler<dim, spacedim>::cell_iterator &cell)
+      : cell(cell)
+    {}
+
     CellPart(const Cell &cell, const PartData *data)
       : cell(cell)
       , data(data)

@@ -88,7 +88,7 @@ namespace Nacre
     Kinematics         &kinematics;
     /** Of a boundary edge. */
     types::boundary_id boundary_id;
-    /** EdgePiece::place() of a boundary edge: the key of PrescribedRotations. */
+    /** EdgePiece::place() of a boundary edge, key of PrescribedRotations. */
     std::pair<unsigned int, unsigned int> place;
   };
 
