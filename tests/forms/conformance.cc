@@ -294,7 +294,7 @@ test_element(const Json &record)
   std::iota(all_nodes.begin(), all_nodes.end(), 0);
   const auto discretization = make_discretization(type, nodes, {all_nodes});
   const auto dofs           = record_dofs(type, *discretization);
-  const auto cell           = discretization->triangulation().begin_active();
+  const auto cell           = discretization->dof_handler().begin_active();
   test_samples(record, type, *discretization, parameters.section, dofs);
   test_space_hessian(name, *discretization);
 
