@@ -3,12 +3,12 @@
 
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
-#include <nacre/forms/mass_terms.h>
 #include <nacre/postprocess/crack_quantities.h>
 #include <nacre/postprocess/crack_tip.h>
 #include <nacre/postprocess/cut_quantities.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
+#include <nacre/postprocess/momentum.h>
 #include <nacre/postprocess/ply_quantities.h>
 #include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
@@ -17,7 +17,6 @@
 #include <nacre/problem/midsurface.h>
 
 #include <functional>
-#include <set>
 #include <sstream>
 
 namespace Nacre
@@ -121,31 +120,6 @@ namespace Nacre
       };
     }
 
-    /** M v of the ghosted velocity; zero in statics. */
-    TrilinosWrappers::MPI::Vector
-    momentum_vector(const SolvedShell &shell)
-    {
-      TrilinosWrappers::MPI::Vector Mv(
-        shell.discretization.locally_owned_dofs(),
-        shell.discretization.communicator());
-      if (shell.mass != nullptr)
-        shell.mass->vmult(Mv, *shell.velocity);
-      return Mv;
-    }
-
-    /** 1/2 v . M v */
-    double
-    kinetic_energy(const SolvedShell &shell)
-    {
-      if (shell.mass == nullptr)
-        return 0.;
-      const auto Mv  = momentum_vector(shell);
-      double     sum = 0.;
-      for (const auto i : shell.discretization.locally_owned_dofs())
-        sum += 0.5 * (*shell.velocity)(i)*Mv(i);
-      return Utilities::MPI::sum(sum, shell.discretization.communicator());
-    }
-
     double
     total_energy(const SolvedShell &shell)
     {
@@ -161,41 +135,11 @@ namespace Nacre
       };
     }
 
-    /**
-     * The components c of the momentum, sum of M v over the nodes, or of its
-     * moment about the origin, sum of (X + u) x M v.
-     */
     Evaluate
     momentum(const unsigned int c, const bool angular)
     {
       return [=](const SolvedShell &shell) {
-        const auto &discretization = shell.discretization;
-        const auto &node_dofs      = discretization.node_dofs();
-        const auto  Mv             = momentum_vector(shell);
-        std::vector<types::global_dof_index> dofs(node_dofs.size());
-        std::set<types::global_dof_index>    visited;
-        Vector3                              sum;
-        for (const CellPart &part : discretization.owned_parts())
-          {
-            discretization.get_dof_indices(part, dofs);
-            const auto nodes = discretization.node_positions(part);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              {
-                const auto first = dofs[node_dofs[spacedim * a]];
-                if (!discretization.locally_owned_dofs().is_element(first) ||
-                    !visited.insert(first).second)
-                  continue;
-                Vector3 x(nodes[a]), p;
-                for (unsigned int d = 0; d < spacedim; ++d)
-                  {
-                    const auto i = dofs[node_dofs[spacedim * a + d]];
-                    x[d] += shell.displacement(i);
-                    p[d] = Mv(i);
-                  }
-                sum += angular ? cross_product_3d(x, p) : p;
-              }
-          }
-        return Utilities::MPI::sum(sum, discretization.communicator())[c];
+        return (angular ? angular_momentum(shell) : linear_momentum(shell))[c];
       };
     }
 
