@@ -13,6 +13,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <set>
 
 namespace Nacre
 {
@@ -36,8 +37,23 @@ namespace Nacre
     std::vector<PartNode>           members;
     std::pair<CellId, unsigned int> lowest;
     types::subdomain_id             owner = numbers::invalid_subdomain_id;
-    /** The number of its first dof; the others follow as the node's do. */
+    /** One for each component; empty as long as they aren't known. */
     std::vector<Dof> dofs;
+
+    /** Find the lowest of the members, whose rank is the owner. */
+    void
+    set_lowest()
+    {
+      for (const auto &member : members)
+        {
+          const auto key = std::make_pair(member.cell->id(), member.part);
+          if (owner == numbers::invalid_subdomain_id || key < lowest)
+            {
+              lowest = key;
+              owner  = member.cell->subdomain_id();
+            }
+        }
+    }
   };
 
   PartNumbering::PartNumbering(
@@ -82,121 +98,166 @@ namespace Nacre
     return dof - old_starts_[rank] + new_starts_[rank];
   }
 
-  std::map<types::global_dof_index, std::vector<PartNumbering::Copy>>
-  PartNumbering::find_copies(const CellParts &parts) const
+  /** The nodes of all parts of touched cells, and which of them are one. */
+  class PartNumbering::Nodes
   {
-    // Number the nodes of all parts, and join those that are one.
-    const unsigned int             n_dofs = node_dofs_.size();
-    const auto                    &cells  = parts.touched_cells();
-    std::map<CellId, unsigned int> first_number;
-    std::vector<std::vector<Dof>>  cell_dofs;
-    unsigned int                   n = 0;
-    for (const auto &cell : cells)
-      {
-        first_number[cell->id()] = n;
-        n += parts.n_parts(cell) * n_nodes_;
-        cell_dofs.emplace_back(n_dofs);
-        cell->get_dof_indices(cell_dofs.back());
-      }
-    JoinedNumbers joined(n);
-    const auto number = [&](const EdgePiece::Side &side, const unsigned int a) {
-      return first_number.at(side.part.cell->id()) +
-             side.part.data->number * n_nodes_ + a;
-    };
-    std::vector<Dof> here(n_dofs), there(n_dofs);
-    for (const auto &cell : cells)
-      for (const auto face : cell->face_indices())
-        if (!cell->at_boundary(face) &&
-            !cell->neighbor(face)->is_artificial() &&
-            parts.has_pieces(cell, face))
+  public:
+    Nodes(const CellParts &parts, const std::vector<unsigned int> &node_dofs)
+      : cells(parts.touched_cells())
+      , n_nodes_(node_dofs.size() / spacedim)
+    {
+      std::vector<Dof> dofs(node_dofs.size());
+      unsigned int     n = 0;
+      for (const auto &cell : cells)
+        {
+          place_[cell->id()] = first_.size();
+          first_.push_back(n);
+          n += parts.n_parts(cell) * n_nodes_;
+          cell->get_dof_indices(dofs);
+          for (unsigned int a = 0; a < n_nodes_; ++a)
+            dofs_.push_back(dofs[node_dofs[spacedim * a]]);
+        }
+      joined = JoinedNumbers(n);
+    }
+
+    /** Of the node @p a of the part number @p i of the cell @p k of cells. */
+    unsigned int
+    number(const unsigned int k,
+           const unsigned int i,
+           const unsigned int a) const
+    {
+      return first_[k] + i * n_nodes_ + a;
+    }
+
+    unsigned int
+    place_of(const CellPart::Cell &cell) const
+    {
+      return place_.at(cell->id());
+    }
+
+    /** The first dof of the DoFHandler at a node of the cell @p k. */
+    Dof
+    first_dof(const unsigned int k, const unsigned int a) const
+    {
+      return dofs_[k * n_nodes_ + a];
+    }
+
+    const std::vector<CellPart::Cell> &cells;
+    JoinedNumbers                      joined{0};
+
+  private:
+    const unsigned int             n_nodes_;
+    std::map<CellId, unsigned int> place_; // in cells
+    std::vector<unsigned int>      first_;
+    std::vector<Dof>               dofs_;
+  };
+
+  void
+  PartNumbering::join_across_pieces(const CellParts &parts, Nodes &nodes) const
+  {
+    for (unsigned int k = 0; k < nodes.cells.size(); ++k)
+      for (const auto face : nodes.cells[k]->face_indices())
+        {
+          const auto &cell = nodes.cells[k];
+          if (cell->at_boundary(face) || !parts.has_pieces(cell, face))
+            continue;
           for (const auto &piece : parts.pieces_between(cell, face))
             {
               const auto &[mine, other] = piece.sides;
-              cell->get_dof_indices(here);
-              other.part.cell->get_dof_indices(there);
+              const auto there          = nodes.place_of(other.part.cell);
               for (const unsigned int a : face_nodes_[mine.face])
                 for (const unsigned int b : face_nodes_[other.face])
-                  if (here[node_dofs_[spacedim * a]] ==
-                      there[node_dofs_[spacedim * b]])
-                    joined.join(number(mine, a), number(other, b));
+                  if (nodes.first_dof(k, a) == nodes.first_dof(there, b))
+                    nodes.joined.join(
+                      nodes.number(k, mine.part.data->number, a),
+                      nodes.number(there, other.part.data->number, b));
             }
-    // Between cells that no cut divides, nodes are joined by edges of any kind.
-    std::map<std::pair<unsigned int, Dof>, unsigned int> of_line;
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      if (!parts.is_cut(cells[k]))
-        for (const auto face : cells[k]->face_indices())
-          if (!parts.has_pieces(cells[k], face))
+        }
+  }
+
+  void
+  PartNumbering::join_across_edges(const CellParts &parts, Nodes &nodes) const
+  {
+    // Whole edges between whole cells: one node on both sides.
+    std::map<std::pair<unsigned int, Dof>, unsigned int> of_edge;
+    for (unsigned int k = 0; k < nodes.cells.size(); ++k)
+      if (!parts.is_cut(nodes.cells[k]))
+        for (const auto face : nodes.cells[k]->face_indices())
+          if (!parts.has_pieces(nodes.cells[k], face))
             for (const unsigned int a : face_nodes_[face])
               {
-                // Whole edges between whole cells: one node on both sides.
-                const auto found = of_line.emplace(
-                  std::make_pair(static_cast<unsigned int>(
-                                   cells[k]->face_index(face)),
-                                 cell_dofs[k][node_dofs_[spacedim * a]]),
-                  first_number.at(cells[k]->id()) + a);
-                joined.join(found.first->second,
-                            first_number.at(cells[k]->id()) + a);
+                const unsigned int edge   = nodes.cells[k]->face_index(face);
+                const unsigned int number = nodes.number(k, 0, a);
+                nodes.joined.join(
+                  of_edge
+                    .emplace(std::make_pair(edge, nodes.first_dof(k, a)),
+                             number)
+                    .first->second,
+                  number);
               }
+  }
 
-    std::map<Dof, bool> on_cut_cell;
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      if (parts.is_cut(cells[k]))
+  std::map<types::global_dof_index, std::vector<PartNumbering::Copy>>
+  PartNumbering::find_copies(const CellParts &parts) const
+  {
+    Nodes nodes(parts, node_dofs_);
+    join_across_pieces(parts, nodes);
+    join_across_edges(parts, nodes);
+
+    std::set<Dof> on_cut_cells;
+    for (unsigned int k = 0; k < nodes.cells.size(); ++k)
+      if (parts.is_cut(nodes.cells[k]))
         for (unsigned int a = 0; a < n_nodes_; ++a)
-          on_cut_cell[cell_dofs[k][node_dofs_[spacedim * a]]] = true;
+          on_cut_cells.insert(nodes.first_dof(k, a));
+    // By node and by the set of joined numbers.
     std::map<Dof, std::map<unsigned int, Copy>> by_set;
-    for (unsigned int k = 0; k < cells.size(); ++k)
-      for (unsigned int i = 0; i < parts.n_parts(cells[k]); ++i)
+    for (unsigned int k = 0; k < nodes.cells.size(); ++k)
+      for (unsigned int i = 0; i < parts.n_parts(nodes.cells[k]); ++i)
         for (unsigned int a = 0; a < n_nodes_; ++a)
           {
-            const Dof  dof            = cell_dofs[k][node_dofs_[spacedim * a]];
-            const bool is_on_cut_cell = on_cut_cell.count(dof) > 0;
-            if (!is_on_cut_cell && !are_removed_)
+            const Dof  dof    = nodes.first_dof(k, a);
+            const bool is_cut = on_cut_cells.count(dof) > 0;
+            if (!is_cut && !are_removed_)
               continue;
             const unsigned int set =
-              is_on_cut_cell ? joined.set_of(first_number.at(cells[k]->id()) +
-                                             i * n_nodes_ + a) :
-                               0;
-            by_set[dof][set].members.push_back({cells[k], i, a});
+              is_cut ? nodes.joined.set_of(nodes.number(k, i, a)) : 0;
+            by_set[dof][set].members.push_back({nodes.cells[k], i, a});
           }
 
     std::map<Dof, std::vector<Copy>> copies;
     for (auto &[dof, sets] : by_set)
       {
-        const auto dof_owner =
-          std::upper_bound(old_starts_.begin(), old_starts_.end(), dof) -
-          old_starts_.begin() - 1;
         auto &list = copies[dof];
         for (auto &entry : sets)
           {
-            Copy &copy = entry.second;
-            for (const auto &member : copy.members)
-              {
-                const auto key = std::make_pair(member.cell->id(), member.part);
-                if (copy.owner == numbers::invalid_subdomain_id ||
-                    key < copy.lowest)
-                  {
-                    copy.lowest = key;
-                    copy.owner  = member.cell->subdomain_id();
-                  }
-              }
-            list.push_back(copy);
+            entry.second.set_lowest();
+            list.push_back(entry.second);
           }
-        // The first one is the lowest with a cell of the dof's owner.
-        const auto has_owner = [&](const Copy &copy) {
-          return std::any_of(copy.members.begin(),
-                             copy.members.end(),
-                             [&](const PartNode &member) {
-                               return member.cell->subdomain_id() == dof_owner;
-                             });
-        };
-        std::sort(list.begin(), list.end(), [&](const Copy &a, const Copy &b) {
-          const bool a_has = has_owner(a), b_has = has_owner(b);
-          return a_has != b_has ? a_has : a.lowest < b.lowest;
-        });
-        if (has_owner(list.front())) // else the owner's parts are removed
-          list.front().owner = dof_owner;
+        sort(dof, list);
       }
     return copies;
+  }
+
+  void
+  PartNumbering::sort(const Dof dof, std::vector<Copy> &copies) const
+  {
+    const auto owner =
+      std::upper_bound(old_starts_.begin(), old_starts_.end(), dof) -
+      old_starts_.begin() - 1;
+    const auto has_owner = [&](const Copy &copy) {
+      return std::any_of(copy.members.begin(),
+                         copy.members.end(),
+                         [&](const PartNode &member) {
+                           return member.cell->subdomain_id() == owner;
+                         });
+    };
+    // The first one is the lowest with a cell of the dof's owner.
+    std::sort(copies.begin(), copies.end(), [&](const Copy &a, const Copy &b) {
+      const bool a_has = has_owner(a), b_has = has_owner(b);
+      return a_has != b_has ? a_has : a.lowest < b.lowest;
+    });
+    if (has_owner(copies.front())) // else the owner's parts are removed
+      copies.front().owner = owner;
   }
 
   void

@@ -206,12 +206,11 @@ namespace Nacre
     const auto &parts = state_.discretization.cell_parts();
     if (cell->at_boundary(face))
       return {};
-    const cell_iterator neighbor = cell->neighbor(face);
     if (cell->neighbor_is_coarser(face))
-      return {
-        {parts.part(neighbor), cell->neighbor_of_coarser_neighbor(face).first}};
+      return {{parts.part(cell->neighbor(face)),
+               cell->neighbor_of_coarser_neighbor(face).first}};
     const auto other = cell->neighbor_of_neighbor(face);
-    if (neighbor->has_children())
+    if (cell->neighbor(face)->has_children())
       {
         std::vector<Neighbor> children;
         for (const unsigned int sub : {0, 1})
@@ -220,6 +219,7 @@ namespace Nacre
                                 other);
         return children;
       }
+    const cell_iterator neighbor = cell->neighbor(face);
     if (neighbor->is_artificial() || !parts.has_pieces(cell, face))
       return {{parts.part(neighbor), other}};
     std::vector<Neighbor> result;

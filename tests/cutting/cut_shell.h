@@ -14,8 +14,11 @@ namespace CutShells
   constexpr auto uv = CutCurve::Coordinates::chart;
 
   inline CutCurve
-  line(const std::string &name, const std::vector<Point<3>> &points)
+  line(const std::string &name, const std::vector<Point<2>> &uv_points)
   {
+    std::vector<Point<3>> points;
+    for (const auto &x : uv_points)
+      points.emplace_back(x[0], x[1], 0.);
     return {name, uv, points, false};
   }
 

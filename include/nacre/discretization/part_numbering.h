@@ -91,6 +91,15 @@ namespace Nacre
     using Dof = types::global_dof_index;
 
     struct Copy;
+    class Nodes;
+
+    /** Join the nodes of parts that share a piece. */
+    void
+    join_across_pieces(const CellParts &parts, Nodes &nodes) const;
+
+    /** Join the nodes of whole cells that share an edge. */
+    void
+    join_across_edges(const CellParts &parts, Nodes &nodes) const;
 
     /**
      * The copies of each node of cut cells, where parts are removed of each
@@ -99,7 +108,11 @@ namespace Nacre
     std::map<Dof, std::vector<Copy>>
     find_copies(const CellParts &parts) const;
 
-    /** Numbers of the copies that this rank owns; adds to n_extra_. */
+    /** The first copy of a node first, and its owner. */
+    void
+    sort(const Dof dof, std::vector<Copy> &copies) const;
+
+    /** Numbers of the copies that this rank owns. */
     void
     number_copies(std::map<Dof, std::vector<Copy>> &copies);
 
