@@ -171,7 +171,11 @@ namespace Nacre
         [this](const CellPart &part) { return node_positions(part); },
         *numbering_,
         parts_);
-    node_constraints_.reinit(locally_relevant_dofs());
+    // A ghost's node may follow nodes beyond the ghosts.
+    IndexSet lines = locally_relevant_dofs();
+    if (extension)
+      lines.add_indices(extension->masters_of_all_ranks());
+    node_constraints_.reinit(lines);
     for (const auto &line :
          make_hanging_node_constraints(dof_handler_).get_lines())
       {
@@ -188,7 +192,7 @@ namespace Nacre
       extension->add_to(node_constraints_);
     if (Utilities::MPI::n_mpi_processes(communicator()) > 1)
       node_constraints_.make_consistent_in_parallel(locally_owned_dofs(),
-                                                    locally_relevant_dofs(),
+                                                    lines,
                                                     communicator());
     node_constraints_.close();
   }

@@ -67,6 +67,7 @@ namespace Nacre
     , node_dofs_(node_dofs)
     , smallest_part_(smallest_part)
     , nodes_of_cell_(nodes_of_cell)
+    , n_dofs_(numbering.n_dofs())
     , parts_(parts)
   {
     find_roots();
@@ -243,6 +244,24 @@ namespace Nacre
         for (unsigned int i = 0; i < message.size(); ++i)
           parts_.parts(cell)[i].nodes = message[i];
       });
+  }
+
+  IndexSet
+  PartExtension::masters_of_all_ranks() const
+  {
+    std::vector<Dof> masters;
+    for (const auto &line : lines_)
+      for (const auto &node : line.masters)
+        masters.insert(masters.end(), node.begin(), node.end());
+    IndexSet all(n_dofs_);
+    for (auto &of_rank :
+         Utilities::MPI::all_gather(dof_handler_.get_communicator(), masters))
+      {
+        std::sort(of_rank.begin(), of_rank.end());
+        all.add_indices(of_rank.begin(), of_rank.end());
+      }
+    all.compress();
+    return all;
   }
 
   void

@@ -38,6 +38,10 @@ namespace Nacre
       const PartNumbering &numbering,
       CellParts           &parts);
 
+    /** The dofs that nodes of any rank follow; collective. */
+    IndexSet
+    masters_of_all_ranks() const;
+
     /** Add the lines of this rank's cells. */
     void
     add_to(AffineConstraints<double> &constraints) const;
