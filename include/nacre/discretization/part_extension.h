@@ -109,6 +109,7 @@ namespace Nacre
     const double                        smallest_part_;
     const std::function<std::vector<Point<spacedim>>(const CellPart &)>
                      &nodes_of_cell_;
+    const Dof         n_dofs_;
     CellParts        &parts_;
     std::vector<Root> roots_;
     std::vector<Line> lines_;
