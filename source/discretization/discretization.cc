@@ -75,6 +75,16 @@ namespace Nacre
     cut(midsurface, cuts);
     if (!cuts.remove.empty())
       remove(cuts.remove);
+    if (cuts.tips == CutTips::branch_functions && !tips_.empty())
+      tip_patches_ = std::make_unique<TipPatches>(
+        dof_handler_,
+        *scalar_fe_,
+        node_dofs_,
+        cuts,
+        tips_,
+        cut_lines_,
+        [this](const CellPart &part) { return node_positions(part); },
+        parts_);
     number_dofs();
   }
 
@@ -143,10 +153,14 @@ namespace Nacre
   void
   Discretization::number_dofs(const bool extends_parts)
   {
-    numbering_ = std::make_unique<PartNumbering>(dof_handler_,
-                                                 face_nodes_,
-                                                 node_dofs_,
-                                                 parts_);
+    numbering_ =
+      std::make_unique<PartNumbering>(dof_handler_,
+                                      face_nodes_,
+                                      node_dofs_,
+                                      parts_,
+                                      tip_patches_ != nullptr ?
+                                        tip_patches_->n_owned_functions() :
+                                        0);
     if (parts_.is_empty())
       node_constraints_ = make_hanging_node_constraints(dof_handler_);
     else
@@ -171,6 +185,11 @@ namespace Nacre
         [this](const CellPart &part) { return node_positions(part); },
         *numbering_,
         parts_);
+    if (tip_patches_ != nullptr)
+      {
+        tip_patches_->complete(numbering_->ends_of_ranks(), parts_);
+        numbering_->add_relevant_dofs(tip_patches_->dofs());
+      }
     // A ghost's node may follow nodes beyond the ghosts.
     IndexSet lines = locally_relevant_dofs();
     if (extension)
@@ -189,7 +208,7 @@ namespace Nacre
                                       weight);
       }
     if (extension)
-      extension->add_to(node_constraints_);
+      extension->add_to(node_constraints_, tip_patches_.get());
     if (Utilities::MPI::n_mpi_processes(communicator()) > 1)
       node_constraints_.make_consistent_in_parallel(locally_owned_dofs(),
                                                     lines,

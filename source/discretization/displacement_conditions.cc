@@ -9,9 +9,6 @@
 #include <nacre/discretization/shell_values.h>
 #include <nacre/problem/foundation.h>
 
-#include <deal.II/fe/fe_nothing.h>
-#include <deal.II/fe/fe_values.h>
-
 #include <algorithm>
 #include <sstream>
 
@@ -33,46 +30,6 @@ namespace Nacre
       Vector3 e;
       e[c] = 1.;
       return e;
-    }
-
-    /** Unit normal and outward conormal at a point of a face. */
-    std::pair<Vector3, Vector3>
-    edge_directions(const DerivativeForm<1, dim, spacedim> &jacobian,
-                    const ReferenceCell                    &cell,
-                    const unsigned int                      face)
-    {
-      Vector3 a_1, a_2;
-      for (unsigned int c = 0; c < spacedim; ++c)
-        {
-          a_1[c] = jacobian[c][0];
-          a_2[c] = jacobian[c][1];
-        }
-      const auto    along   = cell.unit_tangential_vectors<dim>(face, 0);
-      const auto    outward = cell.unit_normal_vectors<dim>(face);
-      const Vector3 normal  = unit(cross_product_3d(a_1, a_2));
-      Vector3       conormal =
-        unit(cross_product_3d(along[0] * a_1 + along[1] * a_2, normal));
-      if (conormal * (outward[0] * a_1 + outward[1] * a_2) < 0.)
-        conormal *= -1.;
-      return {normal, conormal};
-    }
-
-    /** Largest angle (rad) between @p normal and those of the cell's nodes. */
-    double
-    largest_turn(const FEValuesBase<dim, spacedim> &fe_values,
-                 const Vector3                     &normal)
-    {
-      double sine = 0.;
-      for (unsigned int q = 0; q < fe_values.n_quadrature_points; ++q)
-        {
-          const auto   &J = fe_values.jacobian(q);
-          const Vector3 a_1({J[0][0], J[1][0], J[2][0]});
-          const Vector3 a_2({J[0][1], J[1][1], J[2][1]});
-          sine = std::max(
-            sine,
-            cross_product_3d(unit(cross_product_3d(a_1, a_2)), normal).norm());
-        }
-      return std::asin(std::min(1., sine));
     }
 
     /**
@@ -108,7 +65,8 @@ namespace Nacre
   {
     if (finest != nullptr)
       planes_ = finest->planes_;
-    add_edge_conditions(collect_edge_nodes());
+    add_edge_conditions(
+      collect_edge_nodes(discretization, boundary_conditions));
     const auto between = add_point_supports();
     constraints_.reinit(local_lines_);
     for (const auto &node : nodes_)
@@ -130,113 +88,6 @@ namespace Nacre
         masters.push_back(entry.first);
     std::sort(masters.begin(), masters.end());
     relevant_dofs_.add_indices(masters.begin(), masters.end());
-  }
-
-  std::vector<DisplacementConditions::EdgeNode>
-  DisplacementConditions::collect_edge_nodes() const
-  {
-    const auto &fe        = discretization_.scalar_fe();
-    const auto &node_dofs = discretization_.node_dofs();
-
-    FE_Nothing<dim, spacedim> fe_nothing(
-      discretization_.element().reference_cell());
-    FEValues<dim, spacedim> fe_values(discretization_.mapping(),
-                                      fe_nothing,
-                                      fe.get_unit_support_points(),
-                                      update_jacobians);
-    // dofs, id, position, normal, conormal, turn: plain numbers for the
-    // exchange.
-    std::vector<double>                  mine;
-    std::vector<types::global_dof_index> dofs(node_dofs.size());
-    for (const CellPart &part : discretization_.owned_parts())
-      if (part.cell->at_boundary())
-        for (const auto face : part.cell->face_indices())
-          {
-            if (!part.cell->at_boundary(face))
-              continue;
-            const auto edge = boundary_conditions_.edges().find(
-              part.cell->face(face)->boundary_id());
-            // A part without an interval of the edge isn't held by it.
-            if (edge == boundary_conditions_.edges().end() ||
-                discretization_.cell_parts().pieces_of(part, face).empty())
-              continue;
-            fe_values.reinit(
-              static_cast<Triangulation<dim, spacedim>::cell_iterator>(
-                part.cell));
-            discretization_.get_dof_indices(part, dofs);
-            const auto positions = discretization_.node_positions(part);
-            for (const unsigned int a : discretization_.face_nodes(face))
-              {
-                const auto [normal, conormal] =
-                  edge_directions(fe_values.jacobian(a),
-                                  part.cell->reference_cell(),
-                                  face);
-                for (unsigned int c = 0; c < spacedim; ++c)
-                  mine.push_back(dofs[node_dofs[spacedim * a + c]]);
-                mine.push_back(edge->second.edge);
-                for (const auto &v : {Vector3(positions[a]), normal, conormal})
-                  mine.insert(mine.end(), v.begin_raw(), v.end_raw());
-                mine.push_back(largest_turn(fe_values, normal));
-              }
-          }
-    return gather(mine);
-  }
-
-  std::vector<DisplacementConditions::EdgeNode>
-  DisplacementConditions::gather(const std::vector<double> &mine) const
-  {
-    std::vector<EdgeNode> nodes;
-    for (const auto &numbers :
-         Utilities::MPI::all_gather(discretization_.communicator(), mine))
-      for (unsigned int k = 0; k < numbers.size(); k += 14)
-        {
-          EdgeNode node;
-          node.id = static_cast<types::boundary_id>(numbers[k + 3]);
-          for (unsigned int c = 0; c < spacedim; ++c)
-            {
-              node.dofs[c] =
-                static_cast<types::global_dof_index>(numbers[k + c]);
-              node.position[c] = numbers[k + 4 + c];
-              node.normal[c]   = numbers[k + 7 + c];
-              node.conormal[c] = numbers[k + 10 + c];
-            }
-          node.turn = numbers[k + 13];
-          nodes.push_back(node);
-        }
-    // A node has the same mean directions on any number of ranks.
-    std::sort(nodes.begin(), nodes.end(), [](const auto &a, const auto &b) {
-      return std::lexicographical_compare(a.conormal.begin_raw(),
-                                          a.conormal.end_raw(),
-                                          b.conormal.begin_raw(),
-                                          b.conormal.end_raw());
-    });
-    return nodes;
-  }
-
-  std::vector<DisplacementConditions::EdgeNode>
-  DisplacementConditions::average(const std::vector<EdgeNode> &nodes)
-  {
-    std::map<std::pair<types::boundary_id, types::global_dof_index>, EdgeNode>
-      means;
-    for (const auto &node : nodes)
-      {
-        const auto [entry, is_new] =
-          means.emplace(std::make_pair(node.id, node.dofs[0]), node);
-        if (!is_new)
-          {
-            entry->second.normal += node.normal;
-            entry->second.conormal += node.conormal;
-            entry->second.turn = std::max(entry->second.turn, node.turn);
-          }
-      }
-    std::vector<EdgeNode> result;
-    for (auto &[key, node] : means)
-      {
-        node.normal   = unit(node.normal);
-        node.conormal = unit(node.conormal);
-        result.push_back(node);
-      }
-    return result;
   }
 
   Tensor<1, spacedim>
@@ -282,9 +133,8 @@ namespace Nacre
 
   void
   DisplacementConditions::add_edge_conditions(
-    const std::vector<EdgeNode> &raw_nodes)
+    const std::vector<EdgeNode> &nodes)
   {
-    const auto nodes = average(raw_nodes);
     for (const auto &[id, conditions] : boundary_conditions_.edges())
       {
         // An edge may have several boundary ids, but it has one plane.
@@ -318,7 +168,7 @@ namespace Nacre
                      directions_of(condition.direction, edge_node, plane))
                   node.components.push_back(
                     {direction,
-                     condition.value(edge_node.position, instant_),
+                     edge_node.value(condition.value, instant_),
                      &condition.source});
               }
           }

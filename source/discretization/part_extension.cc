@@ -13,45 +13,38 @@
 
 namespace Nacre
 {
-  namespace
+  Point<dim>
+  continued_point(const FiniteElement<dim, spacedim> &fe,
+                  const std::vector<Point<spacedim>> &nodes,
+                  const Point<spacedim>              &target)
   {
-    /**
-     * The point xi, in or near the reference cell, at which the polynomial
-     * geometry of @p nodes is nearest to @p target: Gauss-Newton.
-     */
-    Point<dim>
-    continued_point(const FiniteElement<dim, spacedim> &fe,
-                    const std::vector<Point<spacedim>> &nodes,
-                    const Point<spacedim>              &target)
-    {
-      Point<dim> unit = fe.reference_cell().template barycenter<dim>();
-      for (unsigned int iteration = 0; iteration < 50; ++iteration)
-        {
-          Tensor<1, spacedim>                  difference = target;
-          std::array<Tensor<1, spacedim>, dim> tangents;
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            {
-              const Tensor<1, spacedim> X(nodes[a]);
-              const auto                gradient = fe.shape_grad(a, unit);
-              difference -= fe.shape_value(a, unit) * X;
-              for (unsigned int alpha = 0; alpha < dim; ++alpha)
-                tangents[alpha] += gradient[alpha] * X;
-            }
-          const double     a_11 = tangents[0] * tangents[0];
-          const double     a_22 = tangents[1] * tangents[1];
-          const double     a_12 = tangents[0] * tangents[1];
-          const double     b_1  = tangents[0] * difference;
-          const double     b_2  = tangents[1] * difference;
-          const double     det  = a_11 * a_22 - a_12 * a_12;
-          const Point<dim> step((a_22 * b_1 - a_12 * b_2) / det,
-                                (a_11 * b_2 - a_12 * b_1) / det);
-          unit += step;
-          if (step.norm() < 1e-14)
-            break;
-        }
-      return unit;
-    }
-  } // namespace
+    Point<dim> unit = fe.reference_cell().template barycenter<dim>();
+    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+      {
+        Tensor<1, spacedim>                  difference = target;
+        std::array<Tensor<1, spacedim>, dim> tangents;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          {
+            const Tensor<1, spacedim> X(nodes[a]);
+            const auto                gradient = fe.shape_grad(a, unit);
+            difference -= fe.shape_value(a, unit) * X;
+            for (unsigned int alpha = 0; alpha < dim; ++alpha)
+              tangents[alpha] += gradient[alpha] * X;
+          }
+        const double     a_11 = tangents[0] * tangents[0];
+        const double     a_22 = tangents[1] * tangents[1];
+        const double     a_12 = tangents[0] * tangents[1];
+        const double     b_1  = tangents[0] * difference;
+        const double     b_2  = tangents[1] * difference;
+        const double     det  = a_11 * a_22 - a_12 * a_12;
+        const Point<dim> step((a_22 * b_1 - a_12 * b_2) / det,
+                              (a_11 * b_2 - a_12 * b_1) / det);
+        unit += step;
+        if (step.norm() < 1e-14)
+          break;
+      }
+    return unit;
+  }
 
   PartExtension::PartExtension(
     const DoFHandler<dim, spacedim>    &dof_handler,
@@ -210,9 +203,11 @@ namespace Nacre
               continue;
             line.weights.push_back(weight);
             line.masters.emplace_back();
+            line.master_positions.push_back(root->nodes[a]);
             for (unsigned int c = 0; c < spacedim; ++c)
               line.masters.back()[c] = root->dofs[node_dofs_[spacedim * a + c]];
           }
+        line.position = position;
         lines_.push_back(line);
         for (const auto &member : members)
           {
@@ -265,11 +260,14 @@ namespace Nacre
   }
 
   void
-  PartExtension::add_to(AffineConstraints<double> &constraints) const
+  PartExtension::add_to(AffineConstraints<double> &constraints,
+                        const TipPatches *const    tips) const
   {
     for (const auto &line : lines_)
-      for (unsigned int c = 0; c < spacedim; ++c)
-        if (!constraints.is_constrained(line.dofs[c]))
+      {
+        if (constraints.is_constrained(line.dofs[0]))
+          continue;
+        for (unsigned int c = 0; c < spacedim; ++c)
           {
             constraints.add_line(line.dofs[c]);
             for (unsigned int a = 0; a < line.weights.size(); ++a)
@@ -277,5 +275,8 @@ namespace Nacre
                                     line.masters[a][c],
                                     line.weights[a]);
           }
+        if (tips != nullptr)
+          tips->add_to_line(line, constraints);
+      }
   }
 } // namespace Nacre

@@ -60,7 +60,8 @@ namespace Nacre
     const DoFHandler<dim, spacedim>              &dof_handler,
     const std::vector<std::vector<unsigned int>> &face_nodes,
     const std::vector<unsigned int>              &node_dofs,
-    CellParts                                    &parts)
+    CellParts                                    &parts,
+    const unsigned int                            n_functions)
     : dof_handler_(dof_handler)
     , face_nodes_(face_nodes)
     , node_dofs_(node_dofs)
@@ -78,7 +79,7 @@ namespace Nacre
         return;
       }
     auto copies = find_copies(parts);
-    number_copies(copies);
+    number_copies(copies, n_functions);
     set_dofs(copies, parts);
     make_index_sets(parts);
   }
@@ -261,7 +262,8 @@ namespace Nacre
   }
 
   void
-  PartNumbering::number_copies(std::map<Dof, std::vector<Copy>> &copies)
+  PartNumbering::number_copies(std::map<Dof, std::vector<Copy>> &copies,
+                               const unsigned int                n_functions)
   {
     const auto communicator = dof_handler_.get_communicator();
     const auto me           = Utilities::MPI::this_mpi_process(communicator);
@@ -280,8 +282,9 @@ namespace Nacre
               extra[{k, dofs[node_dofs_[spacedim * member.node + c]]}] = 0;
           }
     const Dof n_base = are_removed_ ? 0 : dof_handler_.n_locally_owned_dofs();
-    new_starts_      = starts_of_ranks(n_base + extra.size(), communicator);
-    Dof next         = new_starts_[me] + n_base;
+    new_starts_ =
+      starts_of_ranks(n_base + extra.size() + n_functions, communicator);
+    Dof next = new_starts_[me] + n_base;
     for (auto &entry : extra)
       entry.second = next++;
 

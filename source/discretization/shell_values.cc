@@ -21,6 +21,15 @@ namespace Nacre
                                 geometry.second_derivatives(q));
     }
 
+    /** The mid-surface at the point @p q. */
+    FieldDerivatives
+    surface_of(const GeometryTable::Values &geometry, const unsigned int q)
+    {
+      return {geometry.position(q),
+              {{geometry.tangent(q, 0), geometry.tangent(q, 1)}},
+              geometry.second_derivatives(q)};
+    }
+
     /** row = sum of weight times the sample's row, each of @p n numbers. */
     NACRE_SIMD void
     combine(const double                                *samples,
@@ -93,8 +102,23 @@ namespace Nacre
   void
   ShellCellValues::set_tables(const CellPart &part)
   {
-    const bool was_cut = is_cut();
-    if (part.is_cut())
+    const bool                  was_cut    = is_cut();
+    const PartEnrichment *const enrichment = enrichment_of(part);
+    n_tip_functions_ = enrichment != nullptr ? enrichment->n_functions() : 0;
+    if (enrichment != nullptr)
+      {
+        // Strains of tip functions are singular: neither tied nor projected,
+        // nor are those of the nodes, which balance them.
+        const auto targets =
+          points_ == Points::rule ?
+            enriched_quadrature(part, discretization_.degree()) :
+            of_cell_.quadrature;
+        of_part_.emplace(discretization_,
+                         targets,
+                         MembraneTying::untied(targets.get_points()),
+                         false);
+      }
+    else if (part.is_cut())
       {
         const Quadrature<dim> rule =
           part_quadrature(part.polygon(), discretization_.degree());
@@ -134,7 +158,7 @@ namespace Nacre
   void
   ShellCellValues::evaluate(const CellPart &part)
   {
-    if (is_cut() || part.is_cut())
+    if (is_cut() || part.is_cut() || enrichment_of(part) != nullptr)
       set_tables(part);
     const auto nodes = discretization_.geometry_nodes(part);
     material_id_     = part.cell->material_id();
@@ -143,6 +167,15 @@ namespace Nacre
       frames_[q] = frame_from(geometry_, q);
     if (tables().has_tying_points)
       tables().tying_geometry.evaluate(nodes, tying_geometry_);
+    if (n_tip_functions_ == 0)
+      return;
+    tip_functions_.clear();
+    for (unsigned int q = 0; q < n_points(); ++q)
+      part.enrichment()->evaluate(shapes(),
+                                  q,
+                                  quadrature().point(q),
+                                  surface_of(geometry_, q),
+                                  tip_functions_);
   }
 
   void
@@ -162,7 +195,7 @@ namespace Nacre
     for (unsigned int k = 0; k < tying_frames_.size(); ++k)
       for (unsigned int alpha = 0; alpha < dim; ++alpha)
         tying_frames_[k].a_cov[alpha] = tying_geometry_.tangent(k, alpha);
-    if (tied_ || (is_cut() && projects_))
+    if (n_tip_functions_ == 0 && (tied_ || (is_cut() && projects_)))
       fill_tied_membrane_rows();
     else
       fill_membrane_rows();
@@ -190,6 +223,14 @@ namespace Nacre
                 row[1][i]            = a_cov[1][c] * dN[1];
                 row[2][i] = a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
               }
+          }
+        for (unsigned int k = 0; k < n_tip_functions_; ++k)
+          {
+            const auto &psi = tip_function(q, k);
+            const auto  strain =
+              ShellStrain::membrane(frames_[q], psi.first[0], psi.first[1]);
+            for (unsigned int v = 0; v < 3; ++v)
+              row[v][tip_dof(k)] = strain[v];
           }
       }
   }
@@ -251,6 +292,14 @@ namespace Nacre
                   row[v][i] = strain[v] * t0[c];
               }
           }
+        for (unsigned int k = 0; k < n_tip_functions_; ++k)
+          {
+            const auto &psi = tip_function(q, k);
+            const auto  strain =
+              ShellStrain::bending(frames_[q], psi.first, psi.second);
+            for (unsigned int v = 0; v < 3; ++v)
+              row[v][tip_dof(k)] = strain[v];
+          }
       }
   }
 
@@ -270,8 +319,8 @@ namespace Nacre
   ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
     : discretization_(discretization)
     , quadrature_(discretization.element().edge_quadrature())
-    , JxW_(quadrature_.size())
   {
+    resize();
     make_directions();
     const auto &node_dofs = discretization.node_dofs();
     local_to_node_.resize(node_dofs.size());
@@ -279,11 +328,61 @@ namespace Nacre
       local_to_node_[node_dofs[k]] = k;
     for (unsigned int side = 0; side < 2; ++side)
       {
-        frames_[side].resize(quadrature_.size());
-        conormals_[side].resize(quadrature_.size());
         joint_dofs_[side].resize(discretization.node_dofs().size());
         cell_dofs_[side].resize(discretization.node_dofs().size());
       }
+  }
+
+  void
+  ShellEdgeValues::resize()
+  {
+    JxW_.resize(n_points());
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        frames_[side].resize(n_points());
+        conormals_[side].resize(n_points());
+      }
+  }
+
+  EdgePiece::Side
+  ShellEdgeValues::whole_side(const CellPart    &part,
+                              const unsigned int face) const
+  {
+    EdgePiece::Side side;
+    side.part = part;
+    side.face = face;
+    if (!part.cell->face_orientation(face))
+      side.interval = {{1., 0.}};
+    return side;
+  }
+
+  void
+  ShellEdgeValues::use_rule(const std::optional<Quadrature<1>> &tip_rule)
+  {
+    if (!tip_rule_ && !tip_rule)
+      return;
+    tip_rule_ = tip_rule;
+    resize();
+  }
+
+  void
+  ShellEdgeValues::choose_rule(const EdgePiece &piece)
+  {
+    const auto cell = discretization_.element().reference_cell();
+    std::optional<Quadrature<1>> rule;
+    for (unsigned int side = 0; side < piece.n_sides && !rule; ++side)
+      {
+        const auto &[part, face, interval] = piece.sides[side];
+        if (enrichment_of(part) == nullptr)
+          continue;
+        const auto start =
+          cell.vertex<dim>(cell.face_to_cell_vertices(face, 0, 1));
+        rule = enriched_edge_quadrature(*part.enrichment(),
+                                        start + interval[0] * directions_[face],
+                                        start + interval[1] * directions_[face],
+                                        discretization_.degree());
+      }
+    use_rule(rule);
   }
 
   void
@@ -335,7 +434,19 @@ namespace Nacre
                           const unsigned int   neighbor_subface)
   {
     const CellParts &parts = discretization_.cell_parts();
-    n_sides_               = 2;
+    if (discretization_.has_tip_functions() &&
+        (enrichment_of(parts.part(cell)) != nullptr ||
+         enrichment_of(parts.part(neighbor)) != nullptr))
+      {
+        EdgePiece piece;
+        piece.n_sides = 2;
+        piece.sides   = {{whole_side(parts.part(cell), face),
+                          whole_side(parts.part(neighbor), neighbor_face)}};
+        reinit(piece);
+        return;
+      }
+    use_rule({});
+    n_sides_ = 2;
     update_side(0, parts.part(cell), face, subface);
     update_side(1, parts.part(neighbor), neighbor_face, neighbor_subface);
     join_dofs();
@@ -344,17 +455,24 @@ namespace Nacre
   void
   ShellEdgeValues::reinit(const cell_iterator &cell, const unsigned int face)
   {
+    const CellPart part = discretization_.cell_parts().part(cell);
+    if (enrichment_of(part) != nullptr)
+      {
+        EdgePiece piece;
+        piece.sides[0] = whole_side(part, face);
+        reinit(piece);
+        return;
+      }
+    use_rule({});
     n_sides_ = 1;
-    update_side(0,
-                discretization_.cell_parts().part(cell),
-                face,
-                numbers::invalid_unsigned_int);
+    update_side(0, part, face, numbers::invalid_unsigned_int);
     join_dofs();
   }
 
   void
   ShellEdgeValues::reinit(const EdgePiece &piece)
   {
+    choose_rule(piece);
     n_sides_ = piece.n_sides;
     for (unsigned int side = 0; side < n_sides_; ++side)
       update_side(side, piece.sides[side]);
@@ -368,8 +486,9 @@ namespace Nacre
     const Point<dim>     begin   = polygon.vertex(i);
     const Tensor<1, dim> along =
       polygon.vertex((i + 1) % polygon.n_vertices()) - begin;
+    use_rule({});
     std::vector<Point<dim>> points;
-    for (const auto &x : quadrature_.get_points())
+    for (const auto &x : rule().get_points())
       points.push_back(begin + x[0] * along);
     n_sides_ = 1;
     piece_tables_[0].emplace(discretization_, points);
@@ -427,7 +546,7 @@ namespace Nacre
       cell.vertex<dim>(cell.face_to_cell_vertices(piece.face, 0, 1));
     const auto &[s_0, s_1] = piece.interval;
     std::vector<Point<dim>> points;
-    for (const auto &x : quadrature_.get_points())
+    for (const auto &x : rule().get_points())
       points.push_back(start +
                        (s_0 + x[0] * (s_1 - s_0)) * directions_[piece.face]);
     piece_tables_[side].emplace(discretization_, points);
@@ -463,8 +582,27 @@ namespace Nacre
         conormals_[side][q] =
           (sign / length) * cross_product_3d(tangent, frame.t0);
         if (side == 0)
-          JxW_[q] = share * length * quadrature_.weight(q);
+          JxW_[q] = share * length * rule().weight(q);
       }
+    evaluate_tip_functions(side);
+  }
+
+  void
+  ShellEdgeValues::evaluate_tip_functions(const unsigned int side)
+  {
+    tip_functions_[side].clear();
+    const PartEnrichment *const enrichment = enrichment_of(parts_[side]);
+    tip_dofs_[side].resize(enrichment != nullptr ? enrichment->n_functions() :
+                                                   0);
+    if (enrichment == nullptr)
+      return;
+    const Table &table = table_of(side);
+    for (unsigned int q = 0; q < n_points(); ++q)
+      enrichment->evaluate(table.shapes,
+                           q,
+                           table.points[q],
+                           surface_of(geometry_[side], q),
+                           tip_functions_[side]);
   }
 
   void
@@ -475,6 +613,8 @@ namespace Nacre
     discretization_.get_dof_indices(parts_[0], cell_dofs_[0]);
     dof_indices_   = cell_dofs_[0];
     joint_dofs_[0] = node_dofs;
+    for (unsigned int k = 0; k < tip_dofs_[0].size(); ++k)
+      tip_dofs_[0][k] = n + k;
     if (n_sides_ == 1)
       return;
 
@@ -499,6 +639,20 @@ namespace Nacre
           joint[local_to_node_[i]] = dof_indices_.size();
           dof_indices_.push_back(cell_dofs_[1][i]);
         }
+    for (unsigned int k = 0; k < tip_dofs_[1].size(); ++k)
+      {
+        // Both sides may have the functions of one tip.
+        const auto dof   = cell_dofs_[1][n + k];
+        const auto begin = cell_dofs_[0].begin();
+        const auto found = std::find(begin + n, cell_dofs_[0].end(), dof);
+        if (found == cell_dofs_[0].end())
+          {
+            tip_dofs_[1][k] = dof_indices_.size();
+            dof_indices_.push_back(dof);
+          }
+        else
+          tip_dofs_[1][k] = found - begin;
+      }
   }
 
   const MembraneTying &

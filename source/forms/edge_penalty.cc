@@ -70,7 +70,11 @@ namespace Nacre
         , edge_(discretization)
         , perimeter_(discretization)
         , discretization_(discretization)
-      {}
+      {
+        // The bound is that of polynomials.
+        values_.use_tip_functions(false);
+        edge_.use_tip_functions(false);
+      }
 
       void
       reinit(const CellPart &part)

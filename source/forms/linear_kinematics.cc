@@ -309,6 +309,8 @@ namespace Nacre
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[edge.dof(0, a, c)] +=
               m * side.rotation[a] * side.t0[c];
+        for (unsigned int k = 0; k < side.tip_rotation.size(); ++k)
+          terms.residual[edge.tip_dof(0, k)] += m * side.tip_rotation[k];
       }
   }
 } // namespace Nacre

@@ -50,6 +50,9 @@ namespace Nacre
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[values.dof(a, c)] -= shapes.value(q, a) * load[c];
+        for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+          terms.residual[values.tip_dof(k)] -=
+            values.tip_function(q, k).value * load;
       }
   }
 
@@ -129,6 +132,9 @@ namespace Nacre
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
             terms.residual[values.dof(0, a, c)] -= shapes.value(q, a) * f[c];
+        for (unsigned int k = 0; k < values.n_tip_functions(0); ++k)
+          terms.residual[values.tip_dof(0, k)] -=
+            values.tip_function(0, q, k).value * f;
       }
   }
 
@@ -158,6 +164,10 @@ namespace Nacre
           continue;
         std::vector<types::global_dof_index> dofs;
         discretization_.get_dof_indices(place.part, dofs);
+        AssertThrow(place.part.enrichment() == nullptr,
+                    ExcMessage("Loads: a point force lies within two cells of "
+                               "the tip of a cut with branch functions; refine "
+                               "the mesh, or choose 'Cuts/Tips = closed'."));
         dealii::Vector<double> local(dofs.size());
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)

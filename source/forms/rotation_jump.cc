@@ -42,11 +42,35 @@ namespace Nacre
                                                          dN,
                                                          shapes.hessian(q, a)));
       }
+    fill_tip_functions(edge, side, q, {{nu_1, nu_2}}, H_nu);
     membrane_moment.clear();
     if (section.is_coupled())
       {
         coupling = sigma * (stiffness_at.coupling * dyad);
         fill_membrane_moment(edge.tied_membrane_rows(side), q);
+      }
+  }
+
+  void
+  JumpSide::fill_tip_functions(const ShellEdgeValues       &edge,
+                               const unsigned int           side,
+                               const unsigned int           q,
+                               const std::array<double, 2> &nu,
+                               const Voigt<>               &H_nu)
+  {
+    const unsigned int n = edge.n_tip_functions(side);
+    tip_rotation.resize(n);
+    tip_moment.resize(n);
+    const double sigma = n > 0 ? edge.sigma(side, q) : 1.;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        const auto &psi = edge.tip_function(side, q, k);
+        tip_rotation[k] =
+          sigma * (t0 * (nu[0] * psi.first[0] + nu[1] * psi.first[1]));
+        tip_moment[k] =
+          sigma *
+          (H_nu *
+           ShellStrain::bending(edge.frame(side, q), psi.first, psi.second));
       }
   }
 
@@ -131,6 +155,12 @@ namespace Nacre
               if (!side_.membrane_moment.empty())
                 mean_moment_[i] += half * side_.membrane_moment[a][c];
             }
+        for (unsigned int k = 0; k < side_.tip_rotation.size(); ++k)
+          {
+            const unsigned int i = edge.tip_dof(side, k);
+            rotation_jump_[i] += sign * side_.tip_rotation[k];
+            mean_moment_[i] += half * side_.tip_moment[k];
+          }
         stiffness_ += (interior ? 0.5 : 1.) * side_.stiffness;
       }
   }

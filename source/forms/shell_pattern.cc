@@ -176,6 +176,8 @@ namespace Nacre
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
                  fe.n_dofs_per_line());
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
+        if (dofs.size() > fe.n_dofs_per_cell()) // functions of tips
+          append(fe.n_dofs_per_cell(), dofs.size() - fe.n_dofs_per_cell());
       }
 
       void

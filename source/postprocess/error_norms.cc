@@ -22,6 +22,16 @@ namespace Nacre
       std::array<Vector3, 3> ddu;
 
       void
+      add(const double factor, const FieldDerivatives &field)
+      {
+        value += factor * field.value;
+        for (unsigned int alpha = 0; alpha < 2; ++alpha)
+          du[alpha] += factor * field.first[alpha];
+        for (unsigned int v = 0; v < 3; ++v)
+          ddu[v] += factor * field.second[v];
+      }
+
+      void
       add(const ShapeTable  &shapes,
           const unsigned int q,
           const unsigned int a,
@@ -69,6 +79,7 @@ namespace Nacre
       {
         values_.reinit(part);
         shell_.discretization.get_dof_indices(part, dofs_);
+        u_.reinit(dofs_.size(), true);
         for (unsigned int i = 0; i < dofs_.size(); ++i)
           u_[i] = shell_.displacement(dofs_[i]);
 
@@ -107,6 +118,8 @@ namespace Nacre
               node[c] = u_[values_.dof(a, c)];
             error.add(values_.shapes(), q, a, -node);
           }
+        for (unsigned int k = 0; k < values_.n_tip_functions(); ++k)
+          error.add(-u_[values_.tip_dof(k)], values_.tip_function(q, k));
 
         const auto &frame           = values_.frame(q);
         const auto &g               = frame.metric_con;

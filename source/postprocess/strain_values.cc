@@ -45,6 +45,7 @@ namespace Nacre
     else if (was_spread)
       set_points(points_);
     discretization_.get_dof_indices(part, dofs_);
+    u_.reinit(dofs_.size(), true);
     for (unsigned int i = 0; i < dofs_.size(); ++i)
       u_[i] = displacement_(dofs_[i]);
     if (is_linear_)
@@ -63,11 +64,20 @@ namespace Nacre
   Tensor<1, spacedim>
   StrainValues::displacement(const unsigned int q) const
   {
-    Tensor<1, spacedim> u;
+    Tensor<1, spacedim> u = tip_displacement(q).value;
     for (unsigned int a = 0; a < values_->shapes().n_nodes(); ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         u[c] += values_->shapes().value(q, a) * u_[values_->dof(a, c)];
     return u;
+  }
+
+  FieldDerivatives
+  StrainValues::tip_displacement(const unsigned int q) const
+  {
+    FieldDerivatives sum;
+    for (unsigned int k = 0; k < values_->n_tip_functions(); ++k)
+      sum.add(u_[values_->tip_dof(k)], values_->tip_function(q, k));
+    return sum;
   }
 
   Tensor<1, spacedim>
@@ -75,10 +85,12 @@ namespace Nacre
   {
     const auto &frame = values_->frame(q);
     const auto  phi   = deformed_basis(frame, values_->shapes(), q);
+    const auto  tip   = tip_displacement(q);
     if (is_linear_)
-      return ShellStrain::normal_change(frame,
-                                        {{phi[0] - frame.a_cov[0],
-                                          phi[1] - frame.a_cov[1]}});
+      return ShellStrain::normal_change(
+        frame,
+        {{phi[0] - frame.a_cov[0] + tip.first[0],
+          phi[1] - frame.a_cov[1] + tip.first[1]}});
     const Tensor<1, spacedim> area = cross_product_3d(phi[0], phi[1]);
     return area / area.norm() - frame.t0;
   }

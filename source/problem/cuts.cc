@@ -304,6 +304,16 @@ namespace Nacre
   } // namespace
 
 
+  const Selection<CutTips> &
+  selection(CutTips)
+  {
+    static const Selection<CutTips> table = {{CutTips::closed, "closed"},
+                                             {CutTips::branch_functions,
+                                              "branch functions"}};
+    return table;
+  }
+
+
   CutParameters::CutParameters()
     : ParameterAcceptor("/Cuts")
   {
@@ -337,6 +347,15 @@ namespace Nacre
                   "stays well conditioned. Units: none.",
                   prm,
                   Patterns::Double(0., 0.5));
+    add_parameter("Tips",
+                  tips_,
+                  "What displacements can do at the tip of a cut that ends "
+                  "inside a cell. 'closed': the crack closes at the edge by "
+                  "which it enters that cell. 'branch functions': the singular "
+                  "fields of Williams around the tip's very place are added, "
+                  "with coefficients of their own; for Type = linear of a "
+                  "homogeneous isotropic section, with the direct solver.",
+                  prm);
   }
 
 
@@ -356,6 +375,7 @@ namespace Nacre
     Cuts result;
     result.snap          = snap_;
     result.smallest_part = smallest_part_;
+    result.tips          = tips_;
     std::map<std::string, std::string> known;
     for (const auto &entry : Text::entries(cuts_text_,
                                            cuts_parameter,

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/log.h>
+#include <nacre/mechanics/elastic_plate.h>
 #include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/simulation/discrete_shell.h>
 #include <nacre/simulation/memory_estimate.h>
@@ -24,11 +25,21 @@ namespace Nacre
           model.midsurface.create_triangulation(communicator,
                                                 model.element.reference_cell(),
                                                 problem.n_refinements);
+      Cuts cuts = model.cuts;
+      cuts.poissons_ratio =
+        [&](const auto &x, const auto &e_1, const auto &e_2) {
+          const auto plate = elastic_plate(model.section, x, e_1, e_2);
+          AssertThrow(plate.has_value(),
+                      ExcMessage("Cuts/Tips: branch functions are those of a "
+                                 "homogeneous isotropic section; choose "
+                                 "'closed'."));
+          return plate->poissons_ratio;
+        };
       return Discretization(std::move(mesh),
                             model.midsurface,
                             model.element,
                             model.mapping_degree,
-                            model.cuts);
+                            cuts);
     }
 
     /** Throws if rigid motions are left free, naming them. */

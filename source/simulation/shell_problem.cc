@@ -271,6 +271,13 @@ namespace Nacre
                 ExcMessage(
                   "Discretization/Assembly: 'reference' knows no cells "
                   "that cuts (Cuts/Cuts) divide; choose 'fast'."));
+    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
+                  (problem.path.is_linear() && linear_kinematics &&
+                   options.edge_form == EdgeForm::rotation_jump),
+                ExcMessage("Cuts/Tips: 'branch functions' are those of "
+                           "'Analysis/Type = linear', 'Kinematics = linear' "
+                           "and 'Edge form = rotation jump'; choose "
+                           "'closed'."));
     AssertThrow((!problem.path.is_linear() &&
                  !seeks_modes(problem.path.type)) ||
                   !problem.model.foundation.is_nonlinear(),

@@ -9,11 +9,14 @@
 #include <deal.II/dofs/dof_handler.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace Nacre
 {
+  struct PartEnrichment;
+
   /** What cuts make of a cell that they divide or touch. */
   struct PartData
   {
@@ -25,10 +28,12 @@ namespace Nacre
     unsigned int number = 0;
     /** CellPart::index(). */
     unsigned int index = 0;
-    /** In the order of the cell's local dofs. */
+    /** In the order of the cell's local dofs; those of tip functions follow. */
     std::vector<types::global_dof_index> dofs;
     /** Positions X0 (length) of the nodes; empty: those of the cell. */
     std::vector<Point<spacedim>> nodes;
+    /** Functions of tips; null: none. */
+    std::shared_ptr<const PartEnrichment> enrichment;
   };
 
   /**
@@ -72,6 +77,13 @@ namespace Nacre
     polygon() const
     {
       return *data->polygon;
+    }
+
+    /** Its tip functions; null: none. */
+    const PartEnrichment *
+    enrichment() const
+    {
+      return data != nullptr ? data->enrichment.get() : nullptr;
     }
 
     /**

@@ -146,7 +146,8 @@ namespace Nacre
     std::vector<CellPart>
     relevant_parts() const;
 
-    /** The dofs of a part, in the order of the element. */
+    /** The dofs of a part, in the order of the element; those of tip functions
+     * follow. */
     void
     get_dof_indices(const CellPart                       &part,
                     std::vector<types::global_dof_index> &dofs) const;
@@ -170,6 +171,13 @@ namespace Nacre
     is_small(const CellPart &part) const
     {
       return part.data != nullptr && part.data->fraction < smallest_part_;
+    }
+
+    /** Whether tips of cuts have functions, PartEnrichment. */
+    bool
+    has_tip_functions() const
+    {
+      return tip_patches_ != nullptr;
     }
 
     /** The cuts in this rank's cells, each piece once (length). */
@@ -333,6 +341,7 @@ namespace Nacre
     double                         smallest_part_ = 0.;
     std::vector<CutTrace::Line>    cut_lines_;
     std::vector<CutTrace::Tip>     tips_;
+    std::unique_ptr<TipPatches>    tip_patches_;
     std::unique_ptr<PartNumbering> numbering_;
     AffineConstraints<double>      node_constraints_;
     std::vector<CellPart>          owned_parts_;

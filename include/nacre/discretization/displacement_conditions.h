@@ -4,8 +4,8 @@
 #ifndef nacre_discretization_displacement_conditions_h
 #define nacre_discretization_displacement_conditions_h
 
+#include <nacre/discretization/edge_nodes.h>
 #include <nacre/discretization/point_constraints.h>
-#include <nacre/problem/boundary_conditions.h>
 
 #include <map>
 #include <set>
@@ -105,19 +105,6 @@ namespace Nacre
 
     using Vector3 = Tensor<1, spacedim>;
 
-    /** A node on a boundary edge, as one of its cells sees it. */
-    struct EdgeNode
-    {
-      /** EdgeConditions::edge */
-      types::boundary_id                            id;
-      std::array<types::global_dof_index, spacedim> dofs;
-      Point<spacedim>                               position;
-      Vector3                                       normal;
-      Vector3                                       conormal;
-      /** Largest angle (rad) between normals there and in the cell. */
-      double turn = 0.;
-    };
-
     /** One prescribed component direction . u = value of a node. */
     struct Component
     {
@@ -132,23 +119,6 @@ namespace Nacre
       std::array<types::global_dof_index, spacedim> dofs;
       std::vector<Component>                        components;
     };
-
-    /** All nodes of conditioned edges on all ranks. */
-    std::vector<EdgeNode>
-    collect_edge_nodes() const;
-
-    /**
-     * Gather the nodes of all ranks, which send theirs as plain numbers @p
-     * mine.
-     */
-    std::vector<EdgeNode>
-    gather(const std::vector<double> &mine) const;
-
-    /**
-     * Merge the entries of a node and an edge into one with mean directions.
-     */
-    static std::vector<EdgeNode>
-    average(const std::vector<EdgeNode> &nodes);
 
     /** Unit normal of the plane that holds an edge. */
     Vector3

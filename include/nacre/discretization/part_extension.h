@@ -5,6 +5,7 @@
 #define nacre_discretization_part_extension_h
 
 #include <nacre/discretization/part_numbering.h>
+#include <nacre/discretization/tip_patches.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -13,6 +14,15 @@
 
 namespace Nacre
 {
+  /**
+   * The point xi, in or near the reference cell, at which the polynomial
+   * geometry of @p nodes (length) is nearest to @p target: Gauss-Newton.
+   */
+  Point<dim>
+  continued_point(const FiniteElement<dim, spacedim> &fe,
+                  const std::vector<Point<spacedim>> &nodes,
+                  const Point<spacedim>              &target);
+
   /**
    * Small parts follow larger neighbours. A part below a fraction of its cell
    * is bad; its root is a good part, reached by the longest pieces. A node that
@@ -42,9 +52,10 @@ namespace Nacre
     IndexSet
     masters_of_all_ranks() const;
 
-    /** Add the lines of this rank's cells. */
+    /** Add the lines of this rank's cells. @param tips null: none */
     void
-    add_to(AffineConstraints<double> &constraints) const;
+    add_to(AffineConstraints<double> &constraints,
+           const TipPatches *const    tips) const;
 
     unsigned int
     n_nodes() const
@@ -73,12 +84,7 @@ namespace Nacre
     };
 
     /** A node that follows: its dofs, and weights of the root's nodes. */
-    struct Line
-    {
-      std::array<Dof, spacedim>              dofs;
-      std::vector<std::array<Dof, spacedim>> masters;
-      std::vector<double>                    weights;
-    };
+    using Line = TipPatches::Line;
 
     /** The roots of all parts, by CellPart::index(). */
     void

@@ -43,11 +43,28 @@ namespace Nacre
      * Without cuts: the numbers of @p dof_handler. With cuts it sets
      * PartData::dofs; collective.
      * @param node_dofs Discretization::node_dofs()
+     * @param n_functions further dofs of this rank, behind those of its nodes
      */
     PartNumbering(const DoFHandler<dim, spacedim>              &dof_handler,
                   const std::vector<std::vector<unsigned int>> &face_nodes,
                   const std::vector<unsigned int>              &node_dofs,
-                  CellParts                                    &parts);
+                  CellParts                                    &parts,
+                  const unsigned int n_functions = 0);
+
+    /** Where the ranges of dofs of the ranks end. */
+    std::vector<types::global_dof_index>
+    ends_of_ranks() const
+    {
+      return {new_starts_.begin() + 1, new_starts_.end()};
+    }
+
+    /** Count dofs of further functions among the relevant ones. */
+    void
+    add_relevant_dofs(const IndexSet &dofs)
+    {
+      locally_relevant_dofs_.add_indices(dofs);
+      locally_relevant_dofs_.compress();
+    }
 
     /**
      * All parts that hold a copy, of nodes of this rank's cut cells; of all its
@@ -114,7 +131,8 @@ namespace Nacre
 
     /** Numbers of the copies that this rank owns. */
     void
-    number_copies(std::map<Dof, std::vector<Copy>> &copies);
+    number_copies(std::map<Dof, std::vector<Copy>> &copies,
+                  const unsigned int                n_functions);
 
     void
     set_dofs(std::map<Dof, std::vector<Copy>> &copies, CellParts &parts);

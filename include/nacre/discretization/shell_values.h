@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/membrane_tying.h>
+#include <nacre/discretization/part_enrichment.h>
 #include <nacre/discretization/shape_table.h>
 #include <nacre/mechanics/section_law.h>
 #include <nacre/mechanics/surface_frame.h>
@@ -63,6 +64,16 @@ namespace Nacre
       projects_ = projects;
     }
 
+    /**
+     * Whether parts near the tips of cuts have the functions of these, which
+     * they do unless this says otherwise.
+     */
+    void
+    use_tip_functions(const bool uses)
+    {
+      uses_tip_functions_ = uses;
+    }
+
     /** Frames and rows of the linear strains; of tying frames a_cov only. */
     void
     reinit(const CellPart &part);
@@ -84,10 +95,30 @@ namespace Nacre
       return frames_.size();
     }
 
+    /** Those of the nodes, and behind them those of tip functions. */
     unsigned int
     n_dofs() const
     {
-      return discretization_.node_dofs().size();
+      return discretization_.node_dofs().size() + n_tip_functions_;
+    }
+
+    unsigned int
+    n_tip_functions() const
+    {
+      return n_tip_functions_;
+    }
+
+    /** psi_k at the point @p q, of the local dof tip_dof(k). */
+    const FieldDerivatives &
+    tip_function(const unsigned int q, const unsigned int k) const
+    {
+      return tip_functions_[q * n_tip_functions_ + k];
+    }
+
+    unsigned int
+    tip_dof(const unsigned int k) const
+    {
+      return discretization_.node_dofs().size() + k;
     }
 
     /** The points in the reference cell, and their weights. */
@@ -211,16 +242,27 @@ namespace Nacre
     void
     fill_bending_rows();
 
+    /** The tip functions of the part that are in use. */
+    const PartEnrichment *
+    enrichment_of(const CellPart &part) const
+    {
+      return uses_tip_functions_ ? part.enrichment() : nullptr;
+    }
+
     const Discretization &discretization_;
     const bool            tied_;
     const Points          points_;
     bool                  projects_;
+    bool                  uses_tip_functions_ = true;
     const Tables          of_cell_;
     std::optional<Tables> of_part_;
 
     GeometryTable::Values geometry_;
     GeometryTable::Values tying_geometry_;
     types::material_id    material_id_ = 0;
+
+    unsigned int                  n_tip_functions_ = 0;
+    std::vector<FieldDerivatives> tip_functions_;
 
     std::vector<SurfaceFrame<>> frames_;
     std::vector<SurfaceFrame<>> tying_frames_;
@@ -245,6 +287,12 @@ namespace Nacre
   public:
     explicit ShellEdgeValues(const Discretization &discretization);
 
+    /** As ShellCellValues::use_tip_functions(). */
+    void
+    use_tip_functions(const bool uses)
+    {
+      uses_tip_functions_ = uses;
+    }
 
     using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
 
@@ -297,7 +345,29 @@ namespace Nacre
     unsigned int
     n_points() const
     {
-      return quadrature_.size();
+      return rule().size();
+    }
+
+    unsigned int
+    n_tip_functions(const unsigned int side) const
+    {
+      return tip_dofs_[side].size();
+    }
+
+    /** psi_k of a side's part at the point @p q. */
+    const FieldDerivatives &
+    tip_function(const unsigned int side,
+                 const unsigned int q,
+                 const unsigned int k) const
+    {
+      return tip_functions_[side][q * tip_dofs_[side].size() + k];
+    }
+
+    /** Index within dof_indices() of a side's function psi_k. */
+    unsigned int
+    tip_dof(const unsigned int side, const unsigned int k) const
+    {
+      return tip_dofs_[side][k];
     }
 
     /** Dofs of the cells of all sides, shared ones once. */
@@ -440,6 +510,13 @@ namespace Nacre
       GeometryTable::Values       geometry;
     };
 
+    /** The tip functions of the part that are in use. */
+    const PartEnrichment *
+    enrichment_of(const CellPart &part) const
+    {
+      return uses_tip_functions_ ? part.enrichment() : nullptr;
+    }
+
     void
     make_directions();
 
@@ -483,12 +560,40 @@ namespace Nacre
     bool
     reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);
 
+    /** The interval of a whole edge. */
+    EdgePiece::Side
+    whole_side(const CellPart &part, const unsigned int face) const;
+
+    const Quadrature<1> &
+    rule() const
+    {
+      return tip_rule_ ? *tip_rule_ : quadrature_;
+    }
+
+    /** A rule of its own where one of the sides has tip functions. */
+    void
+    choose_rule(const EdgePiece &piece);
+
+    /** @param tip_rule in place of quadrature_, if it has a value */
+    void
+    use_rule(const std::optional<Quadrature<1>> &tip_rule);
+
+    void
+    resize();
+
+    /** The tip functions of a side, and room for their dofs. */
+    void
+    evaluate_tip_functions(const unsigned int side);
+
     /** Number the dofs of both sides, shared ones once. */
     void
     join_dofs();
 
     const Discretization &discretization_;
     const Quadrature<1>   quadrature_;
+    /** In place of it. */
+    std::optional<Quadrature<1>> tip_rule_;
+    bool                         uses_tip_functions_ = true;
     /** [face][subface 0, subface 1, whole face, whole face backwards]. */
     std::vector<std::array<std::optional<Table>, 4>> tables_;
     /** Of each face of the reference cell: along it, its length included. */
@@ -510,6 +615,8 @@ namespace Nacre
     std::vector<types::global_dof_index>                 dof_indices_;
     std::array<std::vector<types::global_dof_index>, 2>  cell_dofs_;
     std::array<CellPart, 2>                              parts_;
+    std::array<std::vector<unsigned int>, 2>             tip_dofs_;
+    std::array<std::vector<FieldDerivatives>, 2>         tip_functions_;
     /** @name For tied strains only; tyings by face and kind of the table */
     //@{
     mutable std::map<std::pair<unsigned int, unsigned int>, MembraneTying>

@@ -28,6 +28,11 @@ namespace Nacre
      * back through the edges. Empty for sections without coupling.
      */
     std::vector<Tensor<1, spacedim>> membrane_moment;
+    /** @name theta and m_nn of the tip functions */
+    //@{
+    std::vector<double> tip_rotation;
+    std::vector<double> tip_moment;
+    //@}
     /** sigma B nu nu: its product with eps is that moment. */
     Voigt<>             coupling;
     Tensor<1, spacedim> t0;
@@ -55,6 +60,18 @@ namespace Nacre
     }
 
   private:
+    /**
+     * Set tip_rotation and tip_moment.
+     * @param nu covariant components of the conormal
+     * @param H_nu D nu nu
+     */
+    void
+    fill_tip_functions(const ShellEdgeValues       &edge,
+                       const unsigned int           side,
+                       const unsigned int           q,
+                       const std::array<double, 2> &nu,
+                       const Voigt<>               &H_nu);
+
     /** Set membrane_moment from the rows of the tied membrane strain. */
     void
     fill_membrane_moment(const FullMatrix<double> &rows, const unsigned int q);

@@ -86,6 +86,10 @@ namespace Nacre
                    const ShapeTable     &shapes,
                    const unsigned int    q) const;
 
+    /** The sum of the tip functions at the point @p q. */
+    FieldDerivatives
+    tip_displacement(const unsigned int q) const;
+
     /** Make room for other points. */
     void
     set_points(const Quadrature<dim> &points);

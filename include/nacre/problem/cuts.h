@@ -4,11 +4,14 @@
 #ifndef nacre_problem_cuts_h
 #define nacre_problem_cuts_h
 
+#include <nacre/base/selection.h>
 #include <nacre/base/types.h>
+#include <nacre/mechanics/section_law.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +39,17 @@ namespace Nacre
     bool is_closed = false;
   };
 
+  /** What the displacements have at the tips of cuts. */
+  enum class CutTips
+  {
+    /** Nothing: the crack closes at the edge by which it enters the cell. */
+    closed,
+    /** Williams' fields with coefficients of the tip's own. */
+    branch_functions
+  };
+
+  const Selection<CutTips> &selection(CutTips);
+
   /** The cuts of a shell, and how they enter the mesh. */
   struct Cuts
   {
@@ -45,7 +59,16 @@ namespace Nacre
     /** Nearer to a vertex than this part of an edge, a cut runs through it. */
     double snap = 0.02;
     /** Parts of cells below this part of the cell follow a neighbour. */
-    double smallest_part = 0.25;
+    double  smallest_part = 0.25;
+    CutTips tips          = CutTips::closed;
+    /**
+     * Poisson's ratio at a tip, on which branch functions depend. It throws if
+     * the section has none. Axes e_1, e_2: tangent, orthogonal, of length 1.
+     */
+    std::function<double(const SectionPoint &,
+                         const Tensor<1, spacedim> &,
+                         const Tensor<1, spacedim> &)>
+      poissons_ratio = {};
 
     bool
     is_empty() const
@@ -80,6 +103,7 @@ namespace Nacre
     std::string remove_text_;
     double      snap_          = Cuts().snap;
     double      smallest_part_ = Cuts().smallest_part;
+    CutTips     tips_          = Cuts().tips;
 
     MPI_Comm    communicator_ = MPI_COMM_SELF;
     std::string folder_;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_part_enrichment_h
+#define nacre_discretization_part_enrichment_h
+
+#include <nacre/base/types.h>
+#include <nacre/discretization/tip_functions.h>
+
+#include <deal.II/base/quadrature.h>
+
+#include <memory>
+#include <vector>
+
+namespace Nacre
+{
+  struct CellPart;
+  class ShapeTable;
+
+  /**
+   * What the tips of cuts add to the displacements of a part, (C.4) of
+   * doc/cutting.md:
+   *
+   *   u_h = sum_a N_a u_a + sum_k c_k psi_k,
+   *   psi_k = chi (F_k - sum_a N_a F_k(X_a)).
+   *
+   * The psi_k vanish at the nodes. Their scalar dofs c_k (length) belong to the
+   * tip and are those of all its parts; they follow the nodes' dofs.
+   */
+  struct PartEnrichment
+  {
+    /** What one tip adds. */
+    struct Share
+    {
+      std::shared_ptr<const TipFunctions> functions;
+      /** The sheet, as TipFunctions takes it. */
+      int side = 0;
+      /** chi = chi_0 + chi_1 xi_1 + chi_2 xi_2 + chi_3 xi_1 xi_2. */
+      std::array<double, 4> cutoff{};
+      /** F_k(X_a) as [a][k]. */
+      std::vector<std::array<Tensor<1, 3>, TipFunctions::n_functions>> at_nodes;
+      /** Whether the cell is the tip's or shares a vertex with that. */
+      bool is_near = false;
+      /** Coordinates of the tip, beyond the cell in others than the tip's. */
+      Point<dim> tip;
+      /** Backward along the crack; where the tip lies inside. */
+      Tensor<1, dim> backward;
+      bool           holds_tip = false;
+    };
+
+    std::vector<Share> shares;
+
+    unsigned int
+    n_functions() const
+    {
+      return TipFunctions::n_functions * shares.size();
+    }
+
+    /**
+     * The functions psi_k at a point, appended to @p result.
+     * @param q the point's number in @p shapes
+     * @param surface the mid-surface (length)
+     */
+    void
+    evaluate(const ShapeTable              &shapes,
+             const unsigned int             q,
+             const Point<dim>              &unit,
+             const FieldDerivatives        &surface,
+             std::vector<FieldDerivatives> &result) const;
+  };
+
+  /**
+   * A rule of a part that has tip functions: in cells near to a tip, triangles
+   * that fan out from the point nearest to the tip, with the square of the
+   * radius as coordinate; in others, that of part_quadrature() with points
+   * more.
+   * @param degree of the displacements
+   */
+  Quadrature<dim>
+  enriched_quadrature(const CellPart &part, const unsigned int degree);
+
+  /**
+   * A rule of an edge or a piece of it that has tip functions: near to a tip,
+   * of intervals that get smaller towards the point nearest to it.
+   * @param begin, end of the piece in the part's reference cell
+   */
+  Quadrature<1>
+  enriched_edge_quadrature(const PartEnrichment &enrichment,
+                           const Point<dim>     &begin,
+                           const Point<dim>     &end,
+                           const unsigned int    degree);
+} // namespace Nacre
+
+#endif

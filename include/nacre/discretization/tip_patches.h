@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_discretization_tip_patches_h
+#define nacre_discretization_tip_patches_h
+
+#include <nacre/discretization/cell_parts.h>
+#include <nacre/discretization/cut_trace.h>
+#include <nacre/discretization/part_enrichment.h>
+#include <nacre/problem/cuts.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <functional>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace Nacre
+{
+  /**
+   * The cells around the tips of cuts that have tip functions. The cut-off chi
+   * is 1 on the tip's cell and on all cells that share a vertex with it, and
+   * linear, or bilinear, down to 0 in the cells around those: the
+   * interpolation error F - I_h F alone is blended, and the cells beside the
+   * edge on which the discrete crack closes have F whole.
+   */
+  class TipPatches
+  {
+  public:
+    using Dof = types::global_dof_index;
+    using Positions =
+      std::function<std::vector<Point<spacedim>>(const CellPart &)>;
+
+    /**
+     * Collective. Makes the cells of the patches touched ones. Throws if a
+     * patch has cells of several sizes or holds the tip's cell of another cut.
+     * @param positions (length) of the nodes of a part
+     */
+    TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
+               const FiniteElement<dim, spacedim> &scalar_fe,
+               const std::vector<unsigned int>    &node_dofs,
+               const Cuts                         &cuts,
+               const std::vector<CutTrace::Tip>   &tips,
+               const std::vector<CutTrace::Line>  &lines,
+               const Positions                    &positions,
+               CellParts                          &parts);
+
+    /** Of this rank's tips. */
+    unsigned int
+    n_owned_functions() const;
+
+    /**
+     * Set PartData::enrichment and append the functions' dofs to those of the
+     * parts; collective.
+     * @param ends of the ranges of the dofs that ranks own, which the
+     *   functions' dofs end
+     */
+    void
+    complete(const std::vector<Dof> &ends, CellParts &parts);
+
+    /** The dofs of all functions, of all ranks. */
+    const IndexSet &
+    dofs() const
+    {
+      return dofs_;
+    }
+
+    /** A node that follows others, u_s = sum_a C_sa u_a, and their places. */
+    struct Line
+    {
+      std::array<Dof, spacedim>              dofs;
+      Point<spacedim>                        position;
+      std::vector<std::array<Dof, spacedim>> masters;
+      std::vector<Point<spacedim>>           master_positions;
+      std::vector<double>                    weights;
+    };
+
+    /**
+     * Let the regular part of the displacements obey the line of a small part,
+     *
+     *   u_s - sum_k c_k F_k(X_s) = sum_a C_sa (u_a - sum_k c_k F_k(X_a)):
+     *
+     * the c_k are further masters of the constrained dof, (C.7).
+     */
+    void
+    add_to_line(const Line &line, AffineConstraints<double> &constraints) const;
+
+  private:
+    using Cell = CellPart::Cell;
+
+    /** A tip, known to all ranks. */
+    struct Patch
+    {
+      unsigned int                        owner = numbers::invalid_unsigned_int;
+      TipFunctions::Tip                   frame;
+      double                              poissons_ratio = 0.;
+      double                              size           = 0.;
+      std::set<Dof>                       tip_vertices;
+      std::set<Dof>                       ring_vertices;
+      std::shared_ptr<const TipFunctions> functions;
+      /** From the tip backward along the cut. */
+      std::vector<Point<spacedim>> path;
+      /** Sides of the nodes, by their first dofs. */
+      std::map<Dof, int> side_of_node;
+      Dof                first_dof = 0;
+    };
+
+    void
+    find_frames(const Cuts &cuts);
+
+    void
+    share_frames();
+
+    void
+    find_vertices();
+
+    void
+    check(const Cuts &cuts) const;
+
+    void
+    make_path(const std::vector<CutTrace::Line> &lines, const unsigned int t);
+
+    /** Of the patch's vertices, in the cell. */
+    std::vector<bool>
+    vertices_in(const std::set<Dof> &vertices, const Cell &cell) const;
+
+    bool
+    is_in(const Patch &patch, const Cell &cell) const;
+
+    /** The sheet of a part. */
+    int
+    side_of(const Patch &patch, const CellPart &part, const bool is_cut) const;
+
+    bool
+    holds_tip(const unsigned int t, const CellPart &part) const;
+
+    void
+    find_sides_of_nodes(const CellParts &parts);
+
+    PartEnrichment::Share
+    make_share(const unsigned int t,
+               const CellPart    &part,
+               const bool         is_cut) const;
+
+    const DoFHandler<dim, spacedim>    &dof_handler_;
+    const FiniteElement<dim, spacedim> &scalar_fe_;
+    const std::vector<unsigned int>    &node_dofs_;
+    const std::vector<CutTrace::Tip>   &tips_;
+    const Positions                     positions_;
+    std::vector<Patch>                  patches_; // by tip
+    IndexSet                            dofs_;
+  };
+} // namespace Nacre
+
+#endif

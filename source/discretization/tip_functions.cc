@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/tip_functions.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace Nacre
+{
+  void
+  FieldDerivatives::add(const double factor, const FieldDerivatives &other)
+  {
+    value += factor * other.value;
+    for (unsigned int a = 0; a < 2; ++a)
+      first[a] += factor * other.first[a];
+    for (unsigned int v = 0; v < 3; ++v)
+      second[v] += factor * other.second[v];
+  }
+
+  TipFunctions::TipFunctions(const Tip   &tip,
+                             const double poissons_ratio,
+                             const double length)
+    : tip_(tip)
+    , length_(length)
+  {
+    // 2 mu = 1: the membrane fields are of order 1 at the distance 1.
+    const ElasticPlate plate{1. + poissons_ratio, poissons_ratio, 1.};
+    for (const unsigned int n : {1, 3})
+      for (const bool symmetric : {true, false})
+        {
+          functions_.push_back({membrane_williams_field(n, symmetric, plate),
+                                std::pow(length, -0.5 * n)});
+          functions_.push_back({bending_williams_field(n, symmetric, plate),
+                                std::pow(length, -0.5 * n - 1.)});
+        }
+    AssertDimension(functions_.size(), n_functions);
+  }
+
+  std::pair<double, double>
+  TipFunctions::polar_coordinates(const Tensor<1, 3> &position,
+                                  const int           side) const
+  {
+    const Tensor<1, 3> d = position - tip_.position;
+    const double       x = d * tip_.axes[0];
+    double             y = d * tip_.axes[1];
+    // On the crack's line the sheet is that of the side.
+    if (std::abs(y) < 1e-11 * length_)
+      y = 0.;
+    double theta = std::atan2(y, x);
+    if (side > 0 && theta < -0.5 * numbers::PI)
+      theta += 2. * numbers::PI;
+    if (side < 0 && theta > 0.5 * numbers::PI)
+      theta -= 2. * numbers::PI;
+    return {std::hypot(x, y), theta};
+  }
+
+  std::array<Tensor<1, 3>, TipFunctions::n_functions>
+  TipFunctions::values(const Point<3> &position, const int side) const
+  {
+    const auto [r, theta] = polar_coordinates(position, side);
+    std::array<Tensor<1, 3>, n_functions> result;
+    for (unsigned int k = 0; k < n_functions; ++k)
+      result[k] =
+        in_space(functions_[k].factor, functions_[k].field.value(r, theta));
+    return result;
+  }
+
+  void
+  TipFunctions::evaluate(
+    const FieldDerivatives                    &surface,
+    const int                                  side,
+    std::array<FieldDerivatives, n_functions> &result) const
+  {
+    constexpr std::array<std::array<unsigned int, 2>, 3> pairs = {
+      {{{0, 0}}, {{1, 1}}, {{0, 1}}}};
+    const auto [r, theta] = polar_coordinates(surface.value, side);
+    // x,a and x,ab of the plane's coordinates
+    std::array<std::array<double, 2>, 2> d1;
+    std::array<std::array<double, 3>, 2> d2;
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        for (unsigned int a = 0; a < 2; ++a)
+          d1[i][a] = tip_.axes[i] * surface.first[a];
+        for (unsigned int v = 0; v < 3; ++v)
+          d2[i][v] = tip_.axes[i] * surface.second[v];
+      }
+    for (unsigned int k = 0; k < n_functions; ++k)
+      {
+        const auto &[field, factor] = functions_[k];
+        const auto gradient         = field.gradient(r, theta);
+        const auto hessian          = field.hessian(r, theta);
+        result[k].value             = in_space(factor, field.value(r, theta));
+        for (unsigned int a = 0; a < 2; ++a)
+          result[k].first[a] =
+            in_space(factor, d1[0][a] * gradient[0] + d1[1][a] * gradient[1]);
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            const auto [a, b] = pairs[v];
+            result[k].second[v] =
+              in_space(factor,
+                       d1[0][a] * d1[0][b] * hessian[0] +
+                         d1[1][a] * d1[1][b] * hessian[1] +
+                         (d1[0][a] * d1[1][b] + d1[1][a] * d1[0][b]) *
+                           hessian[2] +
+                         d2[0][v] * gradient[0] + d2[1][v] * gradient[1]);
+          }
+      }
+  }
+} // namespace Nacre

@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/text.h>
+#include <nacre/discretization/part_extension.h>
+#include <nacre/discretization/plane_geometry.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** phi0 and its derivatives of the nodes @p nodes (length). */
+    FieldDerivatives
+    surface_at(const FiniteElement<dim, spacedim> &fe,
+               const std::vector<Point<spacedim>> &nodes,
+               const Point<dim>                   &unit)
+    {
+      FieldDerivatives x;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        {
+          x.value += fe.shape_value(a, unit) * nodes[a];
+          const auto dN = fe.shape_grad(a, unit);
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            x.first[alpha] += dN[alpha] * nodes[a];
+        }
+      return x;
+    }
+
+    /** The tip's axes, from the direction ahead and the surface. */
+    std::array<Tensor<1, 3>, 3>
+    axes_of(const CutTrace::Tip &tip, const FieldDerivatives &surface)
+    {
+      Tensor<1, 3> e_3 = cross_product_3d(surface.first[0], surface.first[1]);
+      e_3 /= e_3.norm();
+      Tensor<1, 3> e_1 = tip.direction - (tip.direction * e_3) * e_3;
+      e_1 /= e_1.norm();
+      return {{e_1, cross_product_3d(e_3, e_1), e_3}};
+    }
+
+    /** The set of all ranks' numbers. */
+    std::set<types::global_dof_index>
+    joined_sets(const std::set<types::global_dof_index> &mine,
+                const MPI_Comm                           communicator)
+    {
+      const std::vector<types::global_dof_index> list(mine.begin(), mine.end());
+      std::set<types::global_dof_index>          all;
+      for (const auto &of_rank : Utilities::MPI::all_gather(communicator, list))
+        all.insert(of_rank.begin(), of_rank.end());
+      return all;
+    }
+  } // namespace
+
+  TipPatches::TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
+                         const FiniteElement<dim, spacedim> &scalar_fe,
+                         const std::vector<unsigned int>    &node_dofs,
+                         const Cuts                         &cuts,
+                         const std::vector<CutTrace::Tip>   &tips,
+                         const std::vector<CutTrace::Line>  &lines,
+                         const Positions                    &positions,
+                         CellParts                          &parts)
+    : dof_handler_(dof_handler)
+    , scalar_fe_(scalar_fe)
+    , node_dofs_(node_dofs)
+    , tips_(tips)
+    , positions_(positions)
+    , patches_(tips.size())
+  {
+    run_on_all_ranks(dof_handler_.get_communicator(),
+                     [&]() { find_frames(cuts); });
+    share_frames();
+    find_vertices();
+    check(cuts);
+    for (unsigned int t = 0; t < tips.size(); ++t)
+      {
+        Patch &patch = patches_[t];
+        patch.functions =
+          std::make_shared<const TipFunctions>(patch.frame,
+                                               patch.poissons_ratio,
+                                               patch.size);
+        make_path(lines, t);
+      }
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const Patch &patch : patches_)
+          if (is_in(patch, cell))
+            parts.touch(cell);
+  }
+
+  void
+  TipPatches::find_frames(const Cuts &cuts)
+  {
+    const unsigned int me =
+      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+    for (const auto &cell : dof_handler_.active_cell_iterators())
+      for (unsigned int t = 0; t < tips_.size(); ++t)
+        if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
+          {
+            Patch     &patch   = patches_[t];
+            const auto nodes   = positions_(CellPart(cell));
+            const auto surface = surface_at(scalar_fe_, nodes, tips_[t].unit);
+            patch.owner        = me;
+            patch.size         = cell->diameter();
+            patch.frame.axes   = axes_of(tips_[t], surface);
+            patch.poissons_ratio =
+              cuts.poissons_ratio(SectionPoint(tips_[t].position,
+                                               cell->material_id()),
+                                  patch.frame.axes[0],
+                                  patch.frame.axes[1]);
+            for (const auto v : cell->vertex_indices())
+              patch.tip_vertices.insert(cell->vertex_dof_index(v, 0));
+          }
+  }
+
+  void
+  TipPatches::share_frames()
+  {
+    const MPI_Comm     communicator = dof_handler_.get_communicator();
+    const unsigned int me = Utilities::MPI::this_mpi_process(communicator);
+    // A tip's number and what its cell's rank knows
+    std::vector<std::vector<double>> mine;
+    for (unsigned int t = 0; t < tips_.size(); ++t)
+      {
+        const Patch &patch = patches_[t];
+        if (patch.owner != me)
+          continue;
+        mine.push_back(
+          {static_cast<double>(t), patch.poissons_ratio, patch.size});
+        for (const auto &axis : patch.frame.axes)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            mine.back().push_back(axis[c]);
+      }
+    const auto all = Utilities::MPI::all_gather(communicator, mine);
+    for (unsigned int rank = 0; rank < all.size(); ++rank)
+      for (const auto &message : all[rank])
+        {
+          const auto t         = static_cast<unsigned int>(message[0]);
+          Patch     &patch     = patches_[t];
+          patch.owner          = rank;
+          patch.poissons_ratio = message[1];
+          patch.size           = message[2];
+          patch.frame.position = tips_[t].position;
+          for (unsigned int i = 0; i < spacedim; ++i)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              patch.frame.axes[i][c] = message[3 + spacedim * i + c];
+        }
+  }
+
+  void
+  TipPatches::find_vertices()
+  {
+    const MPI_Comm communicator = dof_handler_.get_communicator();
+    for (Patch &patch : patches_)
+      {
+        patch.tip_vertices = joined_sets(patch.tip_vertices, communicator);
+        for (const auto &cell : dof_handler_.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              const auto is_one = vertices_in(patch.tip_vertices, cell);
+              if (std::find(is_one.begin(), is_one.end(), true) != is_one.end())
+                for (const auto v : cell->vertex_indices())
+                  patch.ring_vertices.insert(cell->vertex_dof_index(v, 0));
+            }
+        patch.ring_vertices = joined_sets(patch.ring_vertices, communicator);
+      }
+  }
+
+  std::vector<bool>
+  TipPatches::vertices_in(const std::set<Dof> &vertices, const Cell &cell) const
+  {
+    std::vector<bool> result;
+    for (const auto v : cell->vertex_indices())
+      result.push_back(vertices.count(cell->vertex_dof_index(v, 0)) > 0);
+    return result;
+  }
+
+  bool
+  TipPatches::is_in(const Patch &patch, const Cell &cell) const
+  {
+    const auto is_one = vertices_in(patch.ring_vertices, cell);
+    return std::find(is_one.begin(), is_one.end(), true) != is_one.end();
+  }
+
+  void
+  TipPatches::check(const Cuts &cuts) const
+  {
+    const auto where = [&](const unsigned int t) {
+      return "Cuts/Tips: branch functions of the tip of '" +
+             cuts.curves[tips_[t].cut].name + "' at (" +
+             Text::number(tips_[t].position[0]) + ", " +
+             Text::number(tips_[t].position[1]) + ", " +
+             Text::number(tips_[t].position[2]) + ")";
+    };
+    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (unsigned int t = 0; t < tips_.size(); ++t)
+            {
+              if (!is_in(patches_[t], cell))
+                continue;
+              for (const auto face : cell->face_indices())
+                AssertThrow(cell->at_boundary(face) ||
+                              (cell->neighbor(face)->is_active() &&
+                               cell->neighbor(face)->level() == cell->level()),
+                            ExcMessage(where(t) +
+                                       " need cells of one size within two "
+                                       "cells of it; refine there."));
+              for (unsigned int s = 0; s < tips_.size(); ++s)
+                AssertThrow(s == t || cell->id() != tips_[s].cell,
+                            ExcMessage(where(t) + " reach the tip of '" +
+                                       cuts.curves[tips_[s].cut].name +
+                                       "', nearer than three cells; refine "
+                                       "the mesh."));
+            }
+    });
+  }
+
+  void
+  TipPatches::make_path(const std::vector<CutTrace::Line> &lines,
+                        const unsigned int                 t)
+  {
+    Patch       &patch  = patches_[t];
+    const double radius = 8. * patch.size;
+    // Ends of the segments near to the tip
+    std::vector<Point<spacedim>> mine;
+    for (const auto &line : lines)
+      if (line.cut == tips_[t].cut)
+        for (unsigned int i = 0; i + 1 < line.points.size(); ++i)
+          if (line.points[i].distance(tips_[t].position) < radius)
+            {
+              mine.push_back(line.points[i]);
+              mine.push_back(line.points[i + 1]);
+            }
+    std::vector<Point<spacedim>> ends;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+      ends.insert(ends.end(), of_rank.begin(), of_rank.end());
+    std::vector<bool> is_used(ends.size() / 2, false);
+    patch.path          = {tips_[t].position};
+    const double equals = 1e-7 * patch.size;
+    for (bool goes_on = true; goes_on;)
+      {
+        goes_on = false;
+        for (unsigned int i = 0; i < is_used.size() && !goes_on; ++i)
+          for (const unsigned int first : {2 * i, 2 * i + 1})
+            if (!is_used[i] && ends[first].distance(patch.path.back()) < equals)
+              {
+                patch.path.push_back(ends[4 * i + 1 - first]);
+                is_used[i] = goes_on = true;
+              }
+      }
+  }
+
+  bool
+  TipPatches::holds_tip(const unsigned int t, const CellPart &part) const
+  {
+    if (part.cell->id() != tips_[t].cell)
+      return false;
+    const Point<dim> &x       = tips_[t].unit;
+    const auto        polygon = part.is_cut() ?
+                                  part.polygon() :
+                                  CellPolygon::whole(part.cell->reference_cell());
+    if (!polygon.contains(x, 0.))
+      return false;
+    // A tip on an edge doesn't lie inside.
+    for (unsigned int i = 0; i < polygon.n_vertices(); ++i)
+      if (PlaneGeometry::nearest_on_segment(polygon.vertex(i),
+                                            polygon.vertex(
+                                              (i + 1) % polygon.n_vertices()),
+                                            x)
+            .distance(x) < 1e-8)
+        return false;
+    return true;
+  }
+
+  int
+  TipPatches::side_of(const Patch    &patch,
+                      const CellPart &part,
+                      const bool      is_cut) const
+  {
+    const Point<dim> unit =
+      part.is_cut() ? part.polygon().inner_point() :
+                      part.cell->reference_cell().template barycenter<dim>();
+    const Point<spacedim> x(
+      surface_at(scalar_fe_, positions_(part), unit).value);
+    if (!is_cut && (x - patch.frame.position) * patch.frame.axes[0] > 0.)
+      return 0;
+    double nearest = std::numeric_limits<double>::max();
+    double left    = 0.;
+    for (unsigned int i = 0; i + 1 < patch.path.size(); ++i)
+      {
+        const auto  &a = patch.path[i + 1], &b = patch.path[i];
+        const auto   ab = b - a;
+        const double s  = std::clamp((x - a) * ab / ab.norm_square(), 0., 1.);
+        const Tensor<1, 3> d        = x - (a + s * ab);
+        const double       distance = d.norm();
+        if (distance > nearest * (1. + 1e-9))
+          continue;
+        if (distance < nearest * (1. - 1e-9))
+          left = 0.; // else both segments of a corner count
+        nearest = std::min(nearest, distance);
+        left += cross_product_3d(patch.frame.axes[2], ab / ab.norm()) * d;
+      }
+    return left > 0. ? 1 : left < 0. ? -1 : 0;
+  }
+
+  unsigned int
+  TipPatches::n_owned_functions() const
+  {
+    const auto me =
+      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+    return TipFunctions::n_functions *
+           std::count_if(patches_.begin(),
+                         patches_.end(),
+                         [&](const Patch &patch) { return patch.owner == me; });
+  }
+
+  void
+  TipPatches::find_sides_of_nodes(const CellParts &parts)
+  {
+    for (unsigned int t = 0; t < patches_.size(); ++t)
+      {
+        Patch &patch = patches_[t];
+        // First dof of a node, and side + 1 of a part that has it
+        std::vector<std::pair<Dof, unsigned int>> mine;
+        for (const auto &cell : parts.touched_cells())
+          if (cell->is_locally_owned() && is_in(patch, cell))
+            for (unsigned int i = 0; i < parts.n_parts(cell); ++i)
+              {
+                const CellPart part = parts.part(cell, i);
+                const int      side = holds_tip(t, part) ?
+                                        0 :
+                                        side_of(patch, part, parts.is_cut(cell));
+                for (unsigned int a = 0; a < scalar_fe_.n_dofs_per_cell(); ++a)
+                  mine.emplace_back(part.data->dofs[node_dofs_[spacedim * a]],
+                                    side + 1);
+              }
+        // A node on both sides, where the crack closes, has no sheet.
+        std::map<Dof, std::set<unsigned int>> found;
+        for (const auto &of_rank :
+             Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+          for (const auto &[dof, side] : of_rank)
+            found[dof].insert(side);
+        for (auto &[dof, sides] : found)
+          {
+            sides.erase(1);
+            patch.side_of_node[dof] =
+              sides.size() == 1 ? static_cast<int>(*sides.begin()) - 1 : 0;
+          }
+      }
+  }
+
+  PartEnrichment::Share
+  TipPatches::make_share(const unsigned int t,
+                         const CellPart    &part,
+                         const bool         is_cut) const
+  {
+    const Patch          &patch = patches_[t];
+    const auto            nodes = positions_(part);
+    PartEnrichment::Share share;
+    share.functions   = patch.functions;
+    share.holds_tip   = holds_tip(t, part);
+    share.side        = share.holds_tip ? 0 : side_of(patch, part, is_cut);
+    share.tip         = part.cell->id() == tips_[t].cell ?
+                          tips_[t].unit :
+                          continued_point(scalar_fe_, nodes, tips_[t].position);
+    const auto at_tip = vertices_in(patch.tip_vertices, part.cell);
+    share.is_near =
+      std::find(at_tip.begin(), at_tip.end(), true) != at_tip.end();
+
+    // Vertices of quadrilaterals: (0, 0), (1, 0), (0, 1), (1, 1).
+    const auto chi  = vertices_in(patch.ring_vertices, part.cell);
+    share.cutoff[0] = chi[0];
+    share.cutoff[1] = double(chi[1]) - double(chi[0]);
+    share.cutoff[2] = double(chi[2]) - double(chi[0]);
+    if (chi.size() == 4)
+      share.cutoff[3] =
+        double(chi[3]) - double(chi[1]) - double(chi[2]) + double(chi[0]);
+
+    if (share.holds_tip)
+      {
+        const auto   x   = surface_at(scalar_fe_, nodes, share.tip);
+        const auto  &a   = x.first;
+        const double a11 = a[0] * a[0], a22 = a[1] * a[1], a12 = a[0] * a[1];
+        const double b1   = -(a[0] * patch.frame.axes[0]);
+        const double b2   = -(a[1] * patch.frame.axes[0]);
+        share.backward[0] = a22 * b1 - a12 * b2;
+        share.backward[1] = a11 * b2 - a12 * b1;
+        share.backward /= share.backward.norm();
+      }
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      share.at_nodes.push_back(patch.functions->values(
+        nodes[a],
+        patch.side_of_node.at(part.data->dofs[node_dofs_[spacedim * a]])));
+    return share;
+  }
+
+  void
+  TipPatches::complete(const std::vector<Dof> &ends, CellParts &parts)
+  {
+    find_sides_of_nodes(parts);
+    std::vector<unsigned int> n_of_rank(ends.size(), 0);
+    for (const Patch &patch : patches_)
+      n_of_rank[patch.owner] += TipFunctions::n_functions;
+    std::vector<Dof> next(ends);
+    for (unsigned int rank = 0; rank < ends.size(); ++rank)
+      next[rank] -= n_of_rank[rank];
+    dofs_.set_size(ends.back());
+    for (Patch &patch : patches_)
+      {
+        patch.first_dof = next[patch.owner];
+        next[patch.owner] += TipFunctions::n_functions;
+        dofs_.add_range(patch.first_dof, next[patch.owner]);
+      }
+    dofs_.compress();
+
+    for (const auto &cell : parts.touched_cells())
+      for (auto &data : parts.parts(cell))
+        {
+          const CellPart   part(cell, &data);
+          auto             enrichment = std::make_shared<PartEnrichment>();
+          std::vector<Dof> dofs;
+          for (unsigned int t = 0; t < patches_.size(); ++t)
+            if (is_in(patches_[t], cell))
+              {
+                enrichment->shares.push_back(
+                  make_share(t, part, parts.is_cut(cell)));
+                for (unsigned int k = 0; k < TipFunctions::n_functions; ++k)
+                  dofs.push_back(patches_[t].first_dof + k);
+              }
+          if (dofs.empty())
+            continue;
+          data.enrichment = enrichment;
+          data.dofs.insert(data.dofs.end(), dofs.begin(), dofs.end());
+        }
+  }
+
+  void
+  TipPatches::add_to_line(const Line                &line,
+                          AffineConstraints<double> &constraints) const
+  {
+    for (const Patch &patch : patches_)
+      {
+        const auto slave = patch.side_of_node.find(line.dofs[0]);
+        if (slave == patch.side_of_node.end())
+          continue;
+        auto rest = patch.functions->values(line.position, slave->second);
+        for (unsigned int a = 0; a < line.weights.size(); ++a)
+          {
+            const auto master = patch.side_of_node.find(line.masters[a][0]);
+            const auto F =
+              patch.functions->values(line.master_positions[a],
+                                      master == patch.side_of_node.end() ?
+                                        slave->second :
+                                        master->second);
+            for (unsigned int k = 0; k < rest.size(); ++k)
+              rest[k] -= line.weights[a] * F[k];
+          }
+        for (unsigned int k = 0; k < rest.size(); ++k)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            if (rest[k][c] != 0.)
+              constraints.add_entry(line.dofs[c],
+                                    patch.first_dof + k,
+                                    rest[k][c]);
+      }
+  }
+} // namespace Nacre
