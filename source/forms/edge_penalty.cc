@@ -70,11 +70,7 @@ namespace Nacre
         , edge_(discretization)
         , perimeter_(discretization)
         , discretization_(discretization)
-      {
-        // The bound is that of polynomials.
-        values_.use_tip_functions(false);
-        edge_.use_tip_functions(false);
-      }
+      {}
 
       void
       reinit(const CellPart &part)
@@ -92,17 +88,22 @@ namespace Nacre
                discretization_.cell_parts().pieces_of(part, face))
             pieces.push_back(piece);
         // Rows m_nn sqrt(ds / D) on all edges, in local dofs.
-        const unsigned int n_points = edge_.n_points();
-        moments_.reinit(pieces.size() * n_points, values_.n_dofs(), true);
-        for (unsigned int k = 0; k < pieces.size(); ++k)
+        const unsigned int n_dofs = values_.n_dofs();
+        rows_.clear();
+        for (const EdgePiece &piece : pieces)
           {
             if (part.is_cut())
-              edge_.reinit(pieces[k]);
+              edge_.reinit(piece);
             else
-              edge_.reinit(part.cell, pieces[k].sides[0].face);
-            for (unsigned int q = 0; q < n_points; ++q)
-              add_moment(q, &moments_(k * n_points + q, 0));
+              edge_.reinit(part.cell, piece.sides[0].face);
+            for (unsigned int q = 0; q < edge_.n_points(); ++q)
+              {
+                rows_.resize(rows_.size() + n_dofs);
+                add_moment(q, rows_.data() + rows_.size() - n_dofs);
+              }
           }
+        moments_.reinit(rows_.size() / n_dofs, n_dofs, true);
+        moments_.fill(rows_.data());
         eigenvalue = pieces.empty() ? 0. : largest_eigenvalue();
       }
 
@@ -124,6 +125,8 @@ namespace Nacre
               if (!side_.membrane_moment.empty())
                 entry += weight * side_.membrane_moment[a][c];
             }
+        for (unsigned int k = 0; k < side_.tip_moment.size(); ++k)
+          row[values_.tip_dof(k)] = weight * side_.tip_moment[k];
       }
 
       /** Set energy_ to K, the matrix of the second form of the pair. */
@@ -166,8 +169,8 @@ namespace Nacre
       }
 
       /**
-       * lambda_max of (M^T M, K), M the rows of moments_, as that of the small
-       * matrix Y^T Y, Y = L^-1 M^T, K = L L^T.
+       * lambda_max of (M^T M, K), M the rows of moments_, as that of the
+       * smaller of Y^T Y and Y Y^T, Y = L^-1 M^T, K = L L^T.
        */
       double
       largest_eigenvalue()
@@ -191,25 +194,26 @@ namespace Nacre
               &n,
               &info);
         AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("trtrs", info));
-        small_.reinit(m, m, true);
+        const types::blas_int size = std::min(m, n);
+        small_.reinit(size, size, true);
         syrk("L",
-             "T",
-             &m,
-             &n,
+             m <= n ? "T" : "N",
+             &size,
+             m <= n ? &n : &m,
              &one,
              &moments_(0, 0),
              &n,
              &zero,
              &small_(0, 0),
-             &m);
-        eigenvalues_.resize(m);
-        work_.resize(64 * m);
+             &size);
+        eigenvalues_.resize(size);
+        work_.resize(64 * size);
         const types::blas_int n_work = work_.size();
         syev("N",
              "L",
-             &m,
+             &size,
              &small_(0, 0),
-             &m,
+             &size,
              eigenvalues_.data(),
              work_.data(),
              &n_work,
@@ -224,6 +228,7 @@ namespace Nacre
       Perimeter             perimeter_;
       JumpSide              side_;
       const Discretization &discretization_;
+      std::vector<double>   rows_;
       FullMatrix<double>    moments_;
       CellStiffness         stiffness_;
       FullMatrix<double>    stress_rows_;

@@ -28,6 +28,7 @@ namespace Nacre
     strains_.reinit(part);
     std::vector<types::global_dof_index> dofs;
     state_.discretization.get_dof_indices(part, dofs);
+    u_.reinit(dofs.size(), true);
     for (unsigned int i = 0; i < dofs.size(); ++i)
       u_[i] = state_.displacement(dofs[i]);
     nodes_ = state_.discretization.geometry_nodes(part);
@@ -52,7 +53,8 @@ namespace Nacre
   {
     const auto       &values = strains_.values();
     const auto       &shapes = values.shapes();
-    VectorDerivatives u;
+    const auto        tip    = strains_.tip_displacement(q);
+    VectorDerivatives u{tip.first, tip.second};
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         {

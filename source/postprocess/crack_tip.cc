@@ -334,8 +334,9 @@ namespace Nacre
     const bool     ends_inside =
       Utilities::MPI::max(mine.ends_inside ? 1 : 0, communicator) == 1;
     const Point<3> begin = begin_of_last_line(discretization, tip);
-    const auto     place =
-      discretization.nearest(ends_inside ? begin : tip.position);
+    const auto     place = discretization.nearest(
+      ends_inside && !discretization.has_tip_functions() ? begin :
+                                                           tip.position);
     const auto normal = normal_at(discretization, place);
     const auto region =
       Utilities::MPI::max(place.is_mine ? place.part.cell->material_id() : 0u,
@@ -348,6 +349,7 @@ namespace Nacre
     e[0] /= e[0].norm();
     e[1]                     = cross_product_3d(e[2], e[0]);
     const Tensor<1, 3> ahead = tip.position - place.position;
+    result.has_functions     = discretization.has_tip_functions();
     result.closed            = std::max(0., ahead * e[0]);
     AssertThrow(std::abs(ahead * e[1]) <= 0.05 * size,
                 ExcMessage(where +

@@ -44,10 +44,12 @@ namespace Nacre
       return QGauss<dim>(n);
     }
 
-    /** Of a part of a divided cell. */
+    /** Of a part of a divided cell, or one that has tip functions. */
     Quadrature<dim>
     ring_quadrature(const Discretization &discretization, const CellPart &part)
     {
+      if (part.enrichment() != nullptr)
+        return enriched_quadrature(part, discretization.degree());
       // 2 degree + 1 points a direction
       const unsigned int n = n_points(discretization);
       return part_quadrature(part.polygon(),
@@ -449,7 +451,7 @@ namespace Nacre
     std::vector<double> sums(fields.size() + 1, 0.);
     run_on_all_ranks(discretization.communicator(), [&]() {
       for_each_part([&](const CellPart &part) {
-        if (!part.is_cut())
+        if (!part.is_cut() && part.enrichment() == nullptr)
           return add_part(points, part, fields, sums);
         CrackPoints of_part(shell_, ring_quadrature(discretization, part));
         add_part(of_part, part, fields, sums);

@@ -9,7 +9,7 @@ namespace Nacre
   CrackPlateau
   default_plateau(const CrackTip &tip)
   {
-    return {2. * tip.cell_size, 6. * tip.cell_size};
+    return {(tip.has_functions ? 1.5 : 2.) * tip.cell_size, 6. * tip.cell_size};
   }
 
   TipRelease

@@ -29,6 +29,8 @@ namespace Nacre
      * there (length).
      */
     double closed = 0.;
+    /** Whether displacements have the singular fields there. */
+    bool has_functions = false;
   };
 
   /**

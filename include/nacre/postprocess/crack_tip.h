@@ -38,8 +38,9 @@ namespace Nacre
                const std::string    &where);
 
   /**
-   * The crack that a cut opens at its tip: up to the edge by which the cut
-   * enters the cell in which it ends. Throws on all ranks if the cut turns
+   * The crack that a cut opens at its tip: with tip functions up to the end of
+   * the cut, else up to the edge by which it enters the cell in which it
+   * ends. Throws on all ranks if the cut turns
    * beyond. Collective.
    * @param where begins the messages
    */

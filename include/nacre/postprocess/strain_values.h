@@ -61,6 +61,10 @@ namespace Nacre
     Tensor<1, spacedim>
     displacement(const unsigned int q) const;
 
+    /** What of it tip functions are. */
+    FieldDerivatives
+    tip_displacement(const unsigned int q) const;
+
     /** t - t0 of the unit normals, or Delta t (17) in linear kinematics (1). */
     Tensor<1, spacedim>
     normal_change(const unsigned int q) const;
@@ -85,10 +89,6 @@ namespace Nacre
     deformed_basis(const SurfaceFrame<> &frame,
                    const ShapeTable     &shapes,
                    const unsigned int    q) const;
-
-    /** The sum of the tip functions at the point @p q. */
-    FieldDerivatives
-    tip_displacement(const unsigned int q) const;
 
     /** Make room for other points. */
     void
