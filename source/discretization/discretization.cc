@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/discretization/nodal_mapping.h>
 #include <nacre/discretization/removed_parts.h>
@@ -136,7 +137,8 @@ namespace Nacre
         maps.periods = midsurface.chart_periods();
       }
     const CutTrace trace(*triangulation_, maps, cuts);
-    parts_         = CellParts(dof_handler_, trace);
+    run_on_all_ranks(communicator(),
+                     [&]() { parts_ = CellParts(dof_handler_, trace); });
     smallest_part_ = cuts.smallest_part;
     cut_lines_     = trace.lines();
     tips_          = trace.tips();

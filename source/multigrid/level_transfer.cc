@@ -6,113 +6,20 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/distributed/shared_tria.h>
-
-#include <deal.II/fe/fe_simplex_p.h>
-
-#include <deal.II/grid/cell_id.h>
-
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace Nacre
 {
   namespace
   {
-    using Mesh          = parallel::TriangulationBase<dim, spacedim>;
-    using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
-    using Dof           = types::global_dof_index;
+    using Dof = types::global_dof_index;
     /** A linear combination of dofs. */
     using Line = std::vector<std::pair<Dof, double>>;
-
-    const unsigned int no_child = numbers::invalid_unsigned_int;
-
-    /** The active cell of @p mesh that is the cell @p id or holds it. */
-    cell_iterator
-    find_active(const Mesh &mesh, const CellId &id)
-    {
-      auto cell =
-        mesh.create_cell_iterator(CellId(id.get_coarse_cell_id(), {}));
-      for (const auto child : id.get_child_indices())
-        {
-          if (cell->is_active())
-            break;
-          cell = cell->child(child);
-        }
-      return cell;
-    }
-
-
-    /** Finds the rank that owns a cell of a mesh. */
-    class CellOwners
-    {
-    public:
-      explicit CellOwners(const Mesh &mesh)
-        : mesh_(mesh)
-        , shared_(
-            dynamic_cast<
-              const parallel::shared::Triangulation<dim, spacedim> *>(&mesh))
-      {
-        std::vector<CellId> first;
-        for (const auto &cell : mesh.active_cell_iterators())
-          if (cell->is_locally_owned())
-            if (const CellId id = cell->id(); first.empty() || id < first[0])
-              first.assign(1, id);
-        const auto firsts =
-          Utilities::MPI::all_gather(mesh.get_communicator(), first);
-        for (unsigned int rank = 0; rank < firsts.size(); ++rank)
-          if (!firsts[rank].empty())
-            {
-              firsts_.push_back(firsts[rank][0]);
-              ranks_.push_back(rank);
-            }
-      }
-
-      /** The owner of the active cell that is the cell @p id or holds it. */
-      unsigned int
-      operator()(const CellId &id) const
-      {
-        if (shared_ != nullptr)
-          {
-            const auto         cell = find_active(mesh_, id);
-            const unsigned int k    = cell->active_cell_index();
-            return shared_->with_artificial_cells() ?
-                     shared_->get_true_subdomain_ids_of_cells()[k] :
-                     cell->subdomain_id();
-          }
-        // p4est orders cells as their ids, a cell before its descendants.
-        const auto next = std::upper_bound(firsts_.begin(), firsts_.end(), id);
-        Assert(next != firsts_.begin(), ExcInternalError());
-        return ranks_[next - firsts_.begin() - 1];
-      }
-
-    private:
-      const Mesh                                                 &mesh_;
-      const parallel::shared::Triangulation<dim, spacedim> *const shared_;
-      std::vector<CellId>                                         firsts_;
-      std::vector<unsigned int>                                   ranks_;
-    };
-
-
-    /** Dofs of the active cell of @p coarse that is or holds the cell @p id. */
-    std::vector<Dof>
-    active_dofs(const Discretization &coarse, const CellId &id, bool &is_same)
-    {
-      const auto cell = find_active(coarse.triangulation(), id);
-      is_same         = (cell->level() == int(id.get_child_indices().size()));
-      const DoFHandler<dim, spacedim>::active_cell_iterator dof_cell(
-        &coarse.triangulation(),
-        cell->level(),
-        cell->index(),
-        &coarse.dof_handler());
-      std::vector<Dof> dofs(coarse.node_dofs().size());
-      dof_cell->get_dof_indices(dofs);
-      return dofs;
-    }
-
 
     /** Where each rank's range of dofs begins, and the number of dofs. */
     std::vector<Dof>
@@ -163,46 +70,46 @@ namespace Nacre
     }
 
 
-    /**
-     * The embedding of a cell's shape functions into those of its children;
-     * deal.II has that of triangles in the plane only.
-     */
-    std::vector<FullMatrix<double>>
-    prolongation_matrices(const FiniteElement<dim, spacedim> &fe)
+    /** The functions @p fe at @p points: a row for each point. */
+    FullMatrix<double>
+    shape_values(const FiniteElement<dim, spacedim> &fe,
+                 const std::vector<Point<dim>>      &points)
     {
-      std::vector<FullMatrix<double>> matrices;
-      const auto n_children = GeometryInfo<dim>::max_children_per_cell;
-      if (fe.reference_cell() == ReferenceCells::Quadrilateral)
-        for (unsigned int child = 0; child < n_children; ++child)
-          matrices.push_back(fe.get_prolongation_matrix(child));
-      else
-        {
-          const FE_SimplexP<dim> plane_fe(fe.degree);
-          for (unsigned int child = 0; child < n_children; ++child)
-            matrices.push_back(plane_fe.get_prolongation_matrix(child));
-        }
-      return matrices;
+      FullMatrix<double> values(points.size(), fe.n_dofs_per_cell());
+      for (unsigned int a = 0; a < values.m(); ++a)
+        for (unsigned int b = 0; b < values.n(); ++b)
+          values(a, b) = fe.shape_value(b, points[a]);
+      return values;
     }
 
 
-    /**
-     * Values at the nodes of a cell from those at the nodes of a child of it;
-     * rows of nodes outside the child are zero. deal.II's restriction of
-     * triangles is a projection: there, each node of the cell is one of a
-     * child, at which the other shape functions of the cell vanish.
-     */
-    FullMatrix<double>
-    interpolation_matrix(const FiniteElement<dim, spacedim> &fe,
-                         const unsigned int                  child)
+    /** The nodes of @p fe, by @p map of a child_maps(). */
+    template <typename Map>
+    std::vector<Point<dim>>
+    mapped_nodes(const FiniteElement<dim, spacedim> &fe, const Map &map)
     {
-      if (fe.reference_cell() == ReferenceCells::Quadrilateral)
-        return fe.get_restriction_matrix(child);
-      FullMatrix<double>       R(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
-      const FullMatrix<double> P = prolongation_matrices(fe)[child];
-      for (unsigned int a = 0; a < R.m(); ++a)
-        for (unsigned int b = 0; b < R.n(); ++b)
-          R(b, a) = std::abs(P(a, b) - 1.) < 1e-10 ? 1. : 0.;
-      return R;
+      std::vector<Point<dim>> nodes;
+      for (const auto &node : fe.get_unit_support_points())
+        nodes.push_back(map(node));
+      return nodes;
+    }
+
+
+    /** Distances in a reference cell that are round-off. */
+    constexpr double same_point = 1e-8;
+
+
+    /**
+     * How well @p part stands for the displacement at @p node of its reference
+     * cell, on or beside it. Beyond a cut its polynomials are continued ones.
+     */
+    double
+    weight_at(const CellPart &part, const Point<dim> &node)
+    {
+      if (!part.is_cut())
+        return 2.;
+      return part.data->fraction +
+             (part.polygon().contains(node, same_point) ? 1. : 0.);
     }
 
 
@@ -225,23 +132,6 @@ namespace Nacre
                                 }),
                  line.end());
     }
-
-
-    /** The nodes of @p to by those of @p from, on the same cell. */
-    FullMatrix<double>
-    same_cell_matrix(const Discretization &to, const Discretization &from)
-    {
-      const auto        &to_fe   = to.scalar_fe();
-      const auto        &from_fe = from.scalar_fe();
-      FullMatrix<double> matrix(to_fe.n_dofs_per_cell(),
-                                from_fe.n_dofs_per_cell());
-      if (to_fe == from_fe)
-        for (unsigned int a = 0; a < matrix.m(); ++a)
-          matrix(a, a) = 1.;
-      else
-        to_fe.get_interpolation_matrix(from_fe, matrix);
-      return matrix;
-    }
   } // namespace
 
 
@@ -252,60 +142,10 @@ namespace Nacre
     const AffineConstraints<double> &coarse_constraints)
     : fine_(fine)
     , coarse_(coarse)
+    , maps_(child_maps(fine.element().reference_cell()))
+    , coarse_parts_(find_coarse_parts(fine, coarse))
   {
-    find_coarse_cells();
     build(fine_constraints, coarse_constraints);
-  }
-
-
-  void
-  LevelTransfer::find_coarse_cells()
-  {
-    // A cell of another rank: its place among mine, and what I ask for.
-    using Question = std::pair<unsigned int, CellId>;
-    using Answer   = std::pair<unsigned int, std::pair<bool, std::vector<Dof>>>;
-    const CellOwners   owners(coarse_.triangulation());
-    const auto         comm = fine_.communicator();
-    const unsigned int me   = Utilities::MPI::this_mpi_process(comm);
-
-    std::map<unsigned int, std::vector<Question>> questions;
-    for (const auto &cell : fine_.triangulation().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const CellId       id    = cell->id();
-          const unsigned int owner = owners(id);
-          // The last child index is needed only if the cell has a parent.
-          const auto path = id.get_child_indices();
-          CoarseCell found;
-          found.child = path.size() == 0 ? no_child : path[path.size() - 1];
-          if (owner == me)
-            {
-              bool is_same;
-              found.dofs = active_dofs(coarse_, id, is_same);
-              if (is_same)
-                found.child = no_child;
-            }
-          else
-            questions[owner].emplace_back(coarse_cells_.size(), id);
-          coarse_cells_.push_back(found);
-        }
-
-    std::map<unsigned int, std::vector<Answer>> answers;
-    for (const auto &[rank, list] :
-         Utilities::MPI::some_to_some(comm, questions))
-      for (const auto &[place, id] : list)
-        {
-          bool       is_same;
-          const auto dofs = active_dofs(coarse_, id, is_same);
-          answers[rank].emplace_back(place, std::make_pair(is_same, dofs));
-        }
-    for (const auto &[rank, list] : Utilities::MPI::some_to_some(comm, answers))
-      for (const auto &[place, answer] : list)
-        {
-          coarse_cells_[place].dofs = answer.second;
-          if (answer.first)
-            coarse_cells_[place].child = no_child;
-        }
   }
 
 
@@ -315,8 +155,8 @@ namespace Nacre
   {
     // Lines of constrained coarse dofs that this rank doesn't know.
     std::vector<Dof> unknown;
-    for (const auto &cell : coarse_cells_)
-      for (const Dof j : cell.dofs)
+    for (const CoarsePart &part : coarse_parts_)
+      for (const Dof j : part.dofs)
         if (!coarse_.locally_relevant_dofs().is_element(j))
           unknown.push_back(j);
     std::sort(unknown.begin(), unknown.end());
@@ -340,41 +180,49 @@ namespace Nacre
           line.emplace_back(k, weight * factor);
     };
 
+    const auto       &fe    = fine_.scalar_fe();
     const IndexSet   &owned = fine_.locally_owned_dofs();
     std::vector<Line> lines(owned.n_elements());
-    std::vector<bool> is_done(lines.size(), false);
-    std::vector<Dof>  dofs(fine_.node_dofs().size());
-    const auto       &node_dofs        = fine_.node_dofs();
-    const auto       &coarse_node_dofs = coarse_.node_dofs();
-    const auto        same             = same_cell_matrix(fine_, coarse_);
-    const auto        children    = prolongation_matrices(fine_.scalar_fe());
-    auto              coarse_cell = coarse_cells_.begin();
-    for (const auto &cell : fine_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const FullMatrix<double> &P = coarse_cell->child == no_child ?
-                                          same :
-                                          children[coarse_cell->child];
-          cell->get_dof_indices(dofs);
-          for (unsigned int a = 0; a < P.m(); ++a)
-            for (unsigned int c = 0; c < spacedim; ++c)
-              {
-                const Dof i = dofs[node_dofs[spacedim * a + c]];
-                if (!owned.is_element(i) || fine_constraints.is_constrained(i))
-                  continue;
-                const auto row = owned.index_within_set(i);
-                if (is_done[row])
-                  continue;
-                is_done[row] = true;
-                for (unsigned int b = 0; b < P.n(); ++b)
-                  if (std::abs(P(a, b)) > 1e-13)
-                    add(lines[row],
-                        coarse_cell->dofs[coarse_node_dofs[spacedim * b + c]],
-                        P(a, b));
-                simplify(lines[row]);
-              }
-          ++coarse_cell;
-        }
+    // Parts of one node may lie in several coarse parts: beside a chord, and
+    // ahead of a coarse tip.
+    std::vector<double>             weights(lines.size(), 0.);
+    std::vector<Dof>                dofs;
+    const auto                     &node_dofs        = fine_.node_dofs();
+    const auto                     &coarse_node_dofs = coarse_.node_dofs();
+    std::vector<FullMatrix<double>> matrices;
+    for (const ChildMap &map : maps_)
+      matrices.push_back(
+        shape_values(coarse_.scalar_fe(), mapped_nodes(fe, [&](const auto &x) {
+                       return map.to_parent(x);
+                     })));
+    auto coarse_part = coarse_parts_.begin();
+    for (const CellPart &part : fine_.owned_parts())
+      {
+        const CoarsePart &source = *coarse_part++;
+        if (source.dofs.empty())
+          continue;
+        const FullMatrix<double> &P = matrices[source.map];
+        fine_.get_dof_indices(part, dofs);
+        for (unsigned int a = 0; a < P.m(); ++a)
+          for (unsigned int c = 0; c < spacedim; ++c)
+            {
+              const Dof i = dofs[node_dofs[spacedim * a + c]];
+              if (!owned.is_element(i) || fine_constraints.is_constrained(i))
+                continue;
+              const auto   row    = owned.index_within_set(i);
+              const double weight = weight_at(part, fe.unit_support_point(a));
+              if (weight <= weights[row])
+                continue;
+              weights[row] = weight;
+              lines[row].clear();
+              for (unsigned int b = 0; b < P.n(); ++b)
+                if (std::abs(P(a, b)) > 1e-13)
+                  add(lines[row],
+                      source.dofs[coarse_node_dofs[spacedim * b + c]],
+                      P(a, b));
+              simplify(lines[row]);
+            }
+      }
 
     std::vector<Dof> ghosts;
     row_start_.assign(1, 0);
@@ -434,56 +282,85 @@ namespace Nacre
   }
 
 
+  std::vector<LevelTransfer::NodeValue>
+  LevelTransfer::values_at_coarse_nodes(
+    const TrilinosWrappers::MPI::Vector &fine) const
+  {
+    const auto  kind             = fine_.element().reference_cell();
+    const auto  middle           = kind.barycenter<dim>();
+    const auto &node_dofs        = fine_.node_dofs();
+    const auto &coarse_node_dofs = coarse_.node_dofs();
+    // The coarse nodes in the reference cell of the fine part
+    std::vector<std::vector<Point<dim>>> nodes;
+    std::vector<FullMatrix<double>>      matrices;
+    for (const ChildMap &map : maps_)
+      {
+        nodes.push_back(mapped_nodes(coarse_.scalar_fe(), [&](const auto &x) {
+          return map.to_child(x);
+        }));
+        matrices.push_back(shape_values(fine_.scalar_fe(), nodes.back()));
+      }
+
+    std::vector<NodeValue> values;
+    std::vector<Dof>       dofs;
+    auto                   coarse_part = coarse_parts_.begin();
+    for (const CellPart &part : fine_.owned_parts())
+      {
+        const CoarsePart &target = *coarse_part++;
+        if (target.dofs.empty())
+          continue;
+        const FullMatrix<double> &R = matrices[target.map];
+        fine_.get_dof_indices(part, dofs);
+        for (unsigned int b = 0; b < R.m(); ++b)
+          {
+            const Point<dim> &node      = nodes[target.map][b];
+            const bool        is_inside = kind.contains_point(node, same_point);
+            // No part may hold a node of a coarse part beyond a cut. There the
+            // nearest part's polynomials go on.
+            if (!is_inside && !target.is_cut)
+              continue;
+            const double weight =
+              is_inside ? weight_at(part, node) : -node.distance(middle);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                double value = 0.;
+                for (unsigned int a = 0; a < R.n(); ++a)
+                  value += R(b, a) * fine(dofs[node_dofs[spacedim * a + c]]);
+                values.push_back(
+                  {target.dofs[coarse_node_dofs[spacedim * b + c]],
+                   value,
+                   weight});
+              }
+          }
+      }
+    return values;
+  }
+
+
   TrilinosWrappers::MPI::Vector
   LevelTransfer::interpolate(const TrilinosWrappers::MPI::Vector &fine) const
   {
-    const auto                    comm      = coarse_.communicator();
-    const IndexSet               &owned     = coarse_.locally_owned_dofs();
-    const auto                    first     = first_dofs(coarse_);
-    const auto                   &node_dofs = fine_.node_dofs();
-    const auto                   &coarse_node_dofs = coarse_.node_dofs();
-    const auto                    same = same_cell_matrix(coarse_, fine_);
-    TrilinosWrappers::MPI::Vector own_values(owned, comm);
-    std::map<unsigned int, std::vector<std::pair<Dof, double>>> foreign;
+    const auto      comm  = coarse_.communicator();
+    const IndexSet &owned = coarse_.locally_owned_dofs();
+    const auto      first = first_dofs(coarse_);
 
-    std::vector<FullMatrix<double>> matrices;
-    for (unsigned int child = 0; child < 4; ++child)
-      matrices.push_back(interpolation_matrix(fine_.scalar_fe(), child));
-    std::vector<Dof> dofs(node_dofs.size());
-    auto             coarse_cell = coarse_cells_.begin();
-    for (const auto &cell : fine_.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const bool  is_same = (coarse_cell->child == no_child);
-          const auto &R       = is_same ? same : matrices[coarse_cell->child];
-          cell->get_dof_indices(dofs);
-          for (unsigned int b = 0; b < R.m(); ++b)
-            {
-              double row_sum = 0.;
-              for (unsigned int a = 0; a < R.n(); ++a)
-                row_sum += std::abs(R(b, a));
-              if (!is_same && row_sum < 0.5)
-                continue;
-              for (unsigned int c = 0; c < spacedim; ++c)
-                {
-                  double value = 0.;
-                  for (unsigned int a = 0; a < R.n(); ++a)
-                    value += R(b, a) * fine(dofs[node_dofs[spacedim * a + c]]);
-                  const Dof j =
-                    coarse_cell->dofs[coarse_node_dofs[spacedim * b + c]];
-                  if (owned.is_element(j))
-                    own_values(j) = value;
-                  else
-                    foreign[owner_of(j, first)].emplace_back(j, value);
-                }
-            }
-          ++coarse_cell;
-        }
+    std::map<unsigned int, std::vector<NodeValue>> values_of_ranks;
+    for (const NodeValue &value : values_at_coarse_nodes(fine))
+      values_of_ranks[owner_of(value.dof, first)].push_back(value);
+    std::vector<double>           weights(owned.n_elements(),
+                                std::numeric_limits<double>::lowest());
+    TrilinosWrappers::MPI::Vector own_values(owned, comm);
     for (const auto &[rank, values] :
-         Utilities::MPI::some_to_some(comm, foreign))
-      for (const auto &[j, value] : values)
-        own_values(j) = value;
+         Utilities::MPI::some_to_some(comm, values_of_ranks))
+      for (const NodeValue &value : values)
+        if (double &weight = weights[owned.index_within_set(value.dof)];
+            value.weight > weight)
+          {
+            weight                = value.weight;
+            own_values(value.dof) = value.value;
+          }
     own_values.compress(VectorOperation::insert);
+    coarse_.node_constraints().distribute(own_values);
 
     TrilinosWrappers::MPI::Vector result(owned,
                                          coarse_.locally_relevant_dofs(),

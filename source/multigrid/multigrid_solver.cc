@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/multigrid/coarse_mesh.h>
@@ -91,7 +92,7 @@ namespace Nacre
   {
     if (const auto *mapping =
           dynamic_cast<const MappingQ<dim, spacedim> *>(&fine.mapping()))
-      if (fine.element().type == ElementType::lagrange)
+      if (fine.element().type == ElementType::lagrange && model.cuts.is_empty())
         mapping_degree_ = mapping->get_degree();
     levels_.push_back(std::make_unique<Level>());
     levels_.back()->discretization = &fine;
@@ -122,34 +123,55 @@ namespace Nacre
   bool
   MultigridSolver::add_coarser_level()
   {
-    const Discretization &fine             = *levels_.back()->discretization;
-    const bool            has_coarser_mesh = can_coarsen(fine.triangulation());
-    if (!has_coarser_mesh && !has_lower_degree(fine))
-      return false;
+    const Discretization &fine    = *levels_.back()->discretization;
+    const auto           &mesh    = fine.triangulation();
+    Element               element = fine.element();
+    if (can_coarsen(mesh) &&
+        add_level(coarsen(model_.midsurface, mesh), element))
+      return true;
     // If no mesh is coarser, the next level has the lowest degree on this one.
-    Element element = fine.element();
-    if (!has_coarser_mesh)
-      element.degree = lowest_degree;
-    auto level                = std::make_unique<Level>();
-    level->own_discretization = std::make_unique<Discretization>(
-      has_coarser_mesh ? coarsen(model_.midsurface, fine.triangulation()) :
-                         copy(model_.midsurface, fine.triangulation()),
-      [this](const auto &cell, const auto &unit) {
-        return model_.midsurface.position(cell, unit);
-      },
-      element,
-      mapping_degree_);
-    level->own_discretization->set_coarse_level();
-    level->conditions =
-      std::make_unique<DisplacementConditions>(*level->own_discretization,
-                                               model_.supports,
-                                               Instant(),
-                                               conditions_);
+    if (!has_lower_degree(fine))
+      return false;
+    element.degree = lowest_degree;
+    return add_level(copy(model_.midsurface, mesh), element);
+  }
+
+
+  bool
+  MultigridSolver::add_level(
+    std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> mesh,
+    const Element                                              &element)
+  {
+    auto level = std::make_unique<Level>();
+    try
+      {
+        level->own_discretization =
+          std::make_unique<Discretization>(std::move(mesh),
+                                           model_.midsurface,
+                                           element,
+                                           mapping_degree_,
+                                           model_.cuts);
+        level->own_discretization->set_coarse_level();
+        level->conditions =
+          std::make_unique<DisplacementConditions>(*level->own_discretization,
+                                                   model_.supports,
+                                                   Instant(),
+                                                   conditions_);
+      }
+    catch (const ExcMessage &error)
+      {
+        // Cells may be too large for the cuts: all ranks know.
+        if (model_.cuts.is_empty())
+          throw;
+        why_no_coarser_level_ = error_text(error);
+        return false;
+      }
     level->assembly = std::make_unique<Assembly>(*level->own_discretization,
                                                  model_,
                                                  TermSelection::with_tangent);
     level->discretization = level->own_discretization.get();
-    if (level->discretization->n_dofs() >= fine.n_dofs())
+    if (level->discretization->n_dofs() >=
+        levels_.back()->discretization->n_dofs())
       return false;
     levels_.push_back(std::move(level));
     return true;

@@ -10,20 +10,19 @@ namespace Nacre
 {
   namespace
   {
-    using DoFCell = DoFHandler<dim, spacedim>::active_cell_iterator;
-
-    /** Append the dofs of @p cell at and next to its vertex @p v. */
+    /** Append the dofs of @p part at and next to the vertex @p v. */
     void
-    add_dofs(const DoFCell                              &cell,
+    add_dofs(const CellPart                             &part,
              const unsigned int                          v,
-             const std::vector<types::global_dof_index> &cell_dofs,
+             const std::vector<types::global_dof_index> &part_dofs,
              std::vector<types::global_dof_index>       &dofs)
     {
-      const auto &fe  = cell->get_fe();
-      const auto  add = [&](const unsigned int first, const unsigned int n) {
+      const auto &cell = part.cell;
+      const auto &fe   = cell->get_fe();
+      const auto  add  = [&](const unsigned int first, const unsigned int n) {
         dofs.insert(dofs.end(),
-                    cell_dofs.begin() + first,
-                    cell_dofs.begin() + first + n);
+                    part_dofs.begin() + first,
+                    part_dofs.begin() + first + n);
       };
       add(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
       for (const unsigned int l : cell->line_indices())
@@ -35,10 +34,10 @@ namespace Nacre
       add(inside, fe.n_dofs_per_cell() - inside);
     }
 
-    /** A vertex of a cell, by the cell's number in some list. */
+    /** A vertex of a part, by the part's number in some list. */
     struct Corner
     {
-      unsigned int cell;
+      unsigned int part;
       unsigned int vertex;
     };
   } // namespace
@@ -53,26 +52,20 @@ namespace Nacre
     const auto &triangulation = discretization.triangulation();
     const auto  me            = triangulation.locally_owned_subdomain();
 
-    std::vector<DoFCell>             cells;
+    const auto                       parts = discretization.relevant_parts();
     std::vector<std::vector<Corner>> corners(triangulation.n_vertices());
-    for (const auto &cell :
-         discretization.dof_handler().active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          for (const unsigned int v : cell->vertex_indices())
-            corners[cell->vertex_index(v)].push_back(
-              {static_cast<unsigned int>(cells.size()), v});
-          cells.push_back(cell);
-        }
+    for (unsigned int k = 0; k < parts.size(); ++k)
+      for (const unsigned int v : parts[k].cell->vertex_indices())
+        corners[parts[k].cell->vertex_index(v)].push_back({k, v});
 
     std::vector<bool>                    is_done(corners.size(), false);
-    std::vector<types::global_dof_index> cell_dofs, patch, foreign;
+    std::vector<types::global_dof_index> part_dofs, patch, foreign;
     const IndexSet &owned = discretization.locally_owned_dofs();
-    for (const auto &first_cell : cells)
-      if (first_cell->is_locally_owned())
-        for (const unsigned int v : first_cell->vertex_indices())
+    for (const CellPart &first_part : parts)
+      if (first_part.cell->is_locally_owned())
+        for (const unsigned int v : first_part.cell->vertex_indices())
           {
-            const auto vertex = first_cell->vertex_index(v);
+            const auto vertex = first_part.cell->vertex_index(v);
             if (is_done[vertex])
               continue;
             is_done[vertex] = true;
@@ -80,14 +73,13 @@ namespace Nacre
             bool is_mine = true;
             for (const Corner &corner : corners[vertex])
               {
-                const auto &cell = cells[corner.cell];
-                is_mine &= (cell->subdomain_id() >= me);
-                cell_dofs.resize(cell->get_fe().n_dofs_per_cell());
-                cell->get_dof_indices(cell_dofs);
+                const CellPart &part = parts[corner.part];
+                is_mine &= (part.cell->subdomain_id() >= me);
+                discretization.get_dof_indices(part, part_dofs);
                 if (extent == PatchExtent::closed_star)
-                  patch.insert(patch.end(), cell_dofs.begin(), cell_dofs.end());
+                  patch.insert(patch.end(), part_dofs.begin(), part_dofs.end());
                 else
-                  add_dofs(cell, corner.vertex, cell_dofs, patch);
+                  add_dofs(part, corner.vertex, part_dofs, patch);
               }
             if (!is_mine)
               continue;

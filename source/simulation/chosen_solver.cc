@@ -69,6 +69,12 @@ namespace Nacre
                   "Iterations after which multigrid gives up. Units: none.",
                   prm,
                   Patterns::Integer(1));
+    add_parameter("Coarsest unknowns",
+                  values.coarse_dofs,
+                  "Multigrid adds coarser levels until one has at most so "
+                  "many unknowns, which the direct solver takes. Units: none.",
+                  prm,
+                  Patterns::Integer(1));
   }
 
   bool

@@ -107,13 +107,8 @@ namespace Nacre
                              Log               &log) const
   {
     const SolverParameters &chosen = problem_.solver;
-    const bool              is_cut = !problem_.model.cuts.is_empty();
-    const bool              can_coarsen =
-      !is_cut && MultigridSolver::has_coarser_mesh(discretization_);
-    if (chosen.type == SolverType::multigrid && is_cut)
-      log.warning("Linear solver/Solver: multigrid isn't implemented with cuts "
-                  "(Cuts/Cuts); the direct solver is taken.");
-    else if (chosen.type == SolverType::multigrid && !can_coarsen)
+    const bool can_coarsen = MultigridSolver::has_coarser_mesh(discretization_);
+    if (chosen.type == SolverType::multigrid && !can_coarsen)
       log.warning(
         "Linear solver/Solver: the mesh is not refined from a coarser one, "
         "nor is there a coarser space than degree 2; the direct solver is "
@@ -129,13 +124,22 @@ namespace Nacre
     if (can_coarsen && !problem_.path.needs_direct_solver() &&
         (chosen.type == SolverType::multigrid ||
          (chosen.type == SolverType::automatic && prefers_multigrid(task))))
-      make_multigrid = [&]() {
+      make_multigrid = [&]() -> std::unique_ptr<LinearSolver> {
         MultigridSolver::Parameters parameters;
         parameters.max_iterations = chosen.max_iterations;
-        return std::make_unique<MultigridSolver>(discretization_,
-                                                 problem_.model,
-                                                 parameters,
-                                                 &conditions_);
+        parameters.coarse_dofs    = chosen.coarse_dofs;
+        auto solver = std::make_unique<MultigridSolver>(discretization_,
+                                                        problem_.model,
+                                                        parameters,
+                                                        &conditions_);
+        if (solver->n_levels() > 1 || solver->why_no_coarser_level().empty())
+          return solver;
+        if (chosen.type == SolverType::multigrid)
+          log.warning("Linear solver/Solver: the cells of a coarser mesh are "
+                      "too large for the cuts, and the direct solver is "
+                      "taken. There: " +
+                      solver->why_no_coarser_level());
+        return nullptr;
       };
     return std::make_unique<ChosenSolver>(discretization_.communicator(),
                                           make_multigrid,

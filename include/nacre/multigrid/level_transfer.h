@@ -5,6 +5,7 @@
 #define nacre_multigrid_level_transfer_h
 
 #include <nacre/base/types.h>
+#include <nacre/multigrid/coarse_parts.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -33,11 +34,11 @@ namespace Nacre
    * cell of the coarse one or the child of one.
    *
    * The prolongation P takes unconstrained coarse dofs to unconstrained fine
-   * ones: it is the embedding of the space of a coarse cell into that of its
-   * children, or, on the same mesh, into a space of higher degree, with the
-   * constrained coarse dofs (hanging nodes, supports)
-   * expressed by unconstrained ones. The restriction is its transpose. The
-   * meshes may be distributed differently.
+   * ones: it evaluates the functions of a coarse cell, or of the part of it
+   * that holds a fine part, at the nodes of the fine one; on the same mesh, at
+   * those of a space of higher degree. Constrained coarse dofs (hanging nodes,
+   * supports, nodes of small parts) are expressed by unconstrained ones. The
+   * restriction is its transpose. The meshes may be distributed differently.
    */
   class LevelTransfer
   {
@@ -66,17 +67,25 @@ namespace Nacre
     interpolate(const TrilinosWrappers::MPI::Vector &fine) const;
 
   private:
-    /** Where the space of a fine cell comes from. */
-    struct CoarseCell
+    /** A value of the fine displacement at a coarse node. */
+    struct NodeValue
     {
-      /** Number of the fine cell among the children; none if it's the same. */
-      unsigned int                         child;
-      std::vector<types::global_dof_index> dofs;
+      types::global_dof_index dof;
+      double                  value;
+      /** Of the values of a dof that of the largest weight counts. */
+      double weight;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &dof &value &weight;
+      }
     };
 
-    /** Cells of the mesh of @p coarse by this rank's fine cells. */
-    void
-    find_coarse_cells();
+    /** What this rank's parts know of @p fine at the coarse nodes. */
+    std::vector<NodeValue>
+    values_at_coarse_nodes(const TrilinosWrappers::MPI::Vector &fine) const;
 
     void
     build(const AffineConstraints<double> &fine_constraints,
@@ -85,8 +94,9 @@ namespace Nacre
     const Discretization &fine_;
     const Discretization &coarse_;
 
-    /** By the order of this rank's active cells. */
-    std::vector<CoarseCell> coarse_cells_;
+    std::vector<ChildMap> maps_;
+    /** In the order of the fine mesh's owned_parts(). */
+    std::vector<CoarsePart> coarse_parts_;
 
     /** @name P in compressed rows, columns are local indices of coarse_vector_
      */

@@ -7,16 +7,20 @@
 #include <nacre/base/types.h>
 #include <nacre/solvers/linear_solver.h>
 
+#include <deal.II/distributed/tria_base.h>
+
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace Nacre
 {
   class Discretization;
   class DisplacementConditions;
+  struct Element;
   struct ShellModel;
 
   /**
@@ -29,6 +33,8 @@ namespace Nacre
    * everywhere as far as hanging nodes permit, with stiffness matrices
    * assembled there: the Galerkin product of a penalty would be twice as stiff
    * on each coarser level. The coarsest level is solved by a DirectSolver.
+   * Cuts divide the cells of each level; the levels end where cells are too
+   * large for them.
    *
    * Unlike deal.II's multigrid, this needs neither level dofs nor constraints
    * of refinement edges, and works with whatever a Discretization can do.
@@ -72,6 +78,16 @@ namespace Nacre
       return levels_.size();
     }
 
+    /**
+     * What stands against a level coarser than the last one: cuts that its
+     * cells are too large for. Empty if nothing was found.
+     */
+    const std::string &
+    why_no_coarser_level() const
+    {
+      return why_no_coarser_level_;
+    }
+
     /** Number of dofs of the level @p l, 0 is the finest. */
     types::global_dof_index
     n_dofs(const unsigned int l) const;
@@ -109,6 +125,11 @@ namespace Nacre
     /** Append the level after the last one, if there is one. */
     bool
     add_coarser_level();
+
+    /** The same on @p mesh; false if it isn't smaller, or can't be cut. */
+    bool
+    add_level(std::unique_ptr<parallel::TriangulationBase<dim, spacedim>> mesh,
+              const Element &element);
 
     /** What depends on the meshes and the constraints only. */
     void
@@ -151,6 +172,7 @@ namespace Nacre
     const Parameters                    parameters_;
     unsigned int                        mapping_degree_;
     std::vector<std::unique_ptr<Level>> levels_;
+    std::string                         why_no_coarser_level_;
     bool                                has_solved_ = false;
   };
 } // namespace Nacre

@@ -33,6 +33,8 @@ namespace Nacre
     SolverType type = SolverType::automatic;
     /** Of multigrid, before it gives up. */
     unsigned int max_iterations = 100;
+    /** Multigrid coarsens until so many unknowns are left, or fewer. */
+    unsigned int coarse_dofs = 30000;
   };
 
   /** The section Linear solver of a parameter file. */
@@ -74,7 +76,7 @@ namespace Nacre
   public:
     using Factory = std::function<std::unique_ptr<LinearSolver>()>;
 
-    /** @param make_multigrid null: the direct solver only */
+    /** @param make_multigrid if it is or makes null: the direct solver only */
     ChosenSolver(const MPI_Comm communicator,
                  const Factory &make_multigrid,
                  Log           &log);

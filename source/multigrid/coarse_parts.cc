@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/discretization/discretization.h>
+#include <nacre/multigrid/coarse_parts.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/distributed/shared_tria.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+
+#include <deal.II/grid/cell_id.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Mesh          = parallel::TriangulationBase<dim, spacedim>;
+    using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
+
+    constexpr unsigned int n_children =
+      GeometryInfo<dim>::max_children_per_cell;
+
+    /** The active cell of @p mesh that is the cell @p id or holds it. */
+    cell_iterator
+    find_active(const Mesh &mesh, const CellId &id)
+    {
+      auto cell =
+        mesh.create_cell_iterator(CellId(id.get_coarse_cell_id(), {}));
+      for (const auto child : id.get_child_indices())
+        {
+          if (cell->is_active())
+            break;
+          cell = cell->child(child);
+        }
+      return cell;
+    }
+
+
+    /** Finds the rank that owns a cell of a mesh. */
+    class CellOwners
+    {
+    public:
+      explicit CellOwners(const Mesh &mesh)
+        : mesh_(mesh)
+        , shared_(
+            dynamic_cast<
+              const parallel::shared::Triangulation<dim, spacedim> *>(&mesh))
+      {
+        std::vector<CellId> first;
+        for (const auto &cell : mesh.active_cell_iterators())
+          if (cell->is_locally_owned())
+            if (const CellId id = cell->id(); first.empty() || id < first[0])
+              first.assign(1, id);
+        const auto firsts =
+          Utilities::MPI::all_gather(mesh.get_communicator(), first);
+        for (unsigned int rank = 0; rank < firsts.size(); ++rank)
+          if (!firsts[rank].empty())
+            {
+              firsts_.push_back(firsts[rank][0]);
+              ranks_.push_back(rank);
+            }
+      }
+
+      /** The owner of the active cell that is the cell @p id or holds it. */
+      unsigned int
+      operator()(const CellId &id) const
+      {
+        if (shared_ != nullptr)
+          {
+            const auto         cell = find_active(mesh_, id);
+            const unsigned int k    = cell->active_cell_index();
+            return shared_->with_artificial_cells() ?
+                     shared_->get_true_subdomain_ids_of_cells()[k] :
+                     cell->subdomain_id();
+          }
+        // p4est orders cells as their ids, a cell before its descendants.
+        const auto next = std::upper_bound(firsts_.begin(), firsts_.end(), id);
+        Assert(next != firsts_.begin(), ExcInternalError());
+        return ranks_[next - firsts_.begin() - 1];
+      }
+
+    private:
+      const Mesh                                                 &mesh_;
+      const parallel::shared::Triangulation<dim, spacedim> *const shared_;
+      std::vector<CellId>                                         firsts_;
+      std::vector<unsigned int>                                   ranks_;
+    };
+
+
+    /** A fine part, as the rank knows it that owns the coarse cell. */
+    struct FinePart
+    {
+      /** Its place among those of its rank. */
+      unsigned int place;
+      CellId       cell;
+      /** A point inside, in the reference cell. */
+      Point<dim> inside;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &place &cell &inside;
+      }
+    };
+
+
+    /** The number of the part of a cell that holds @p x or is next to it. */
+    unsigned int
+    part_at(const std::vector<PartData> &parts, const Point<dim> &x)
+    {
+      for (double tolerance = 1e-10; tolerance < 2.; tolerance *= 2.)
+        for (unsigned int i = 0; i < parts.size(); ++i)
+          if (!parts[i].polygon || parts[i].polygon->contains(x, tolerance))
+            return i;
+      return 0;
+    }
+
+
+    CoarsePart
+    part_of(const Discretization        &coarse,
+            const std::vector<ChildMap> &maps,
+            const FinePart              &fine)
+    {
+      const auto path = fine.cell.get_child_indices();
+      const auto cell = find_active(coarse.triangulation(), fine.cell);
+      const CellPart::Cell dof_cell(&coarse.triangulation(),
+                                    cell->level(),
+                                    cell->index(),
+                                    &coarse.dof_handler());
+      CoarsePart           result;
+      Assert(cell->level() == int(path.size()) ||
+               cell->level() + 1 == int(path.size()),
+             ExcMessage("The coarse cell is not the parent."));
+      result.map =
+        cell->level() == int(path.size()) ? n_children : path[path.size() - 1];
+      const CellParts &parts = coarse.cell_parts();
+      if (parts.n_parts(dof_cell) == 0)
+        return result;
+      CellPart part = parts.part(dof_cell);
+      if (parts.is_touched(dof_cell))
+        part = parts.part(dof_cell,
+                          part_at(parts.parts(dof_cell),
+                                  maps[result.map].to_parent(fine.inside)));
+      result.is_cut = part.is_cut();
+      coarse.get_dof_indices(part, result.dofs);
+      return result;
+    }
+  } // namespace
+
+
+  std::vector<ChildMap>
+  child_maps(const ReferenceCell &cell)
+  {
+    // The linear functions of the parent at the vertices of a child
+    std::unique_ptr<FiniteElement<dim>> linear;
+    if (cell == ReferenceCells::Quadrilateral)
+      linear = std::make_unique<FE_Q<dim>>(1);
+    else
+      linear = std::make_unique<FE_SimplexP<dim>>(1);
+    std::vector<ChildMap> maps(n_children + 1);
+    for (unsigned int child = 0; child < n_children; ++child)
+      {
+        const auto &P      = linear->get_prolongation_matrix(child);
+        const auto  vertex = [&](const unsigned int v) {
+          Point<dim> x;
+          for (const unsigned int w : cell.vertex_indices())
+            x += P(v, w) * cell.vertex<dim>(w);
+          return x;
+        };
+        ChildMap &map = maps[child];
+        map.origin    = vertex(0);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int c = 0; c < dim; ++c)
+            map.jacobian[c][d] = vertex(d + 1)[c] - map.origin[c];
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      maps[n_children].jacobian[d][d] = 1.;
+    return maps;
+  }
+
+
+  std::vector<CoarsePart>
+  find_coarse_parts(const Discretization &fine, const Discretization &coarse)
+  {
+    const CellOwners   owners(coarse.triangulation());
+    const auto         comm   = fine.communicator();
+    const unsigned int me     = Utilities::MPI::this_mpi_process(comm);
+    const auto         kind   = fine.element().reference_cell();
+    const auto         maps   = child_maps(kind);
+    const auto         middle = kind.barycenter<dim>();
+
+    std::vector<CoarsePart>                       found;
+    std::map<unsigned int, std::vector<FinePart>> questions;
+    for (const CellPart &part : fine.owned_parts())
+      {
+        const unsigned int place = found.size();
+        const FinePart     question{place,
+                                part.cell->id(),
+                                part.is_cut() ? part.polygon().inner_point() :
+                                                    middle};
+        const unsigned int owner = owners(question.cell);
+        found.emplace_back();
+        if (owner == me)
+          found.back() = part_of(coarse, maps, question);
+        else
+          questions[owner].push_back(question);
+      }
+
+    using Answer = std::pair<unsigned int, CoarsePart>;
+    std::map<unsigned int, std::vector<Answer>> answers;
+    for (const auto &[rank, list] :
+         Utilities::MPI::some_to_some(comm, questions))
+      for (const FinePart &question : list)
+        answers[rank].emplace_back(question.place,
+                                   part_of(coarse, maps, question));
+    for (const auto &[rank, list] : Utilities::MPI::some_to_some(comm, answers))
+      for (const auto &[place, part] : list)
+        found[place] = part;
+    return found;
+  }
+} // namespace Nacre
