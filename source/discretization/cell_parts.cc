@@ -95,7 +95,8 @@ namespace Nacre
     entry_of_cell_[k]       = entries_.size();
     touched_cells_.push_back(cell);
     entries_.emplace_back();
-    Entry &entry = entries_.back();
+    Entry &entry      = entries_.back();
+    entry.is_near_cut = true;
     for (const auto face : cell->face_indices())
       {
         entry.opened.push_back(trace.opened(k, face));

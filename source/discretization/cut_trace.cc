@@ -35,7 +35,7 @@ namespace Nacre
     void
     join();
 
-    /** Throws if a cut cell has hanging edges, and for cuts without a part. */
+    /** Throws as check_sizes(), and for cuts without a part; collective. */
     void
     check() const;
 
@@ -136,6 +136,10 @@ namespace Nacre
 
     bool
     is_on_boundary(const Cell &cell, const CutEvent &event) const;
+
+    /** Throws if cells at the vertices of a cut cell have other sizes. */
+    void
+    check_sizes() const;
 
     const parallel::TriangulationBase<dim, spacedim> &mesh_;
     const CellMaps                                   &maps_;
@@ -341,6 +345,35 @@ namespace Nacre
 
 
   void
+  CutTrace::Tracer::check_sizes() const
+  {
+    std::map<unsigned int, Cell> cut_cells; // by vertex
+    for (const auto &cell : mesh_.active_cell_iterators())
+      if (!cell->is_artificial() &&
+          !traces_[cell->active_cell_index()].is_empty())
+        for (const unsigned int v : cell->vertex_indices())
+          cut_cells.emplace(cell->vertex_index(v), cell);
+    for (const auto &cell : mesh_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            const auto cut = cut_cells.find(cell->vertex_index(v));
+            if (cut == cut_cells.end() || cut->second->level() == cell->level())
+              continue;
+            const auto         middle = maps_.reference_cell.barycenter<dim>();
+            std::ostringstream message;
+            message << "Cuts/Cuts: a cut runs through the cell at ("
+                    << maps_.position(cut->second, middle)
+                    << "), which is of another size than the one beside it at ("
+                    << maps_.position(cell, middle)
+                    << "). Cells along a cut and those that touch them must be "
+                       "of one size; refine them alike.";
+            AssertThrow(false, ExcMessage(message.str()));
+          }
+  }
+
+
+  void
   CutTrace::Tracer::check() const
   {
     std::vector<unsigned int> is_found(paths_.size(), 0);
@@ -350,26 +383,13 @@ namespace Nacre
           const CellTrace &trace = traces_[cell->active_cell_index()];
           if (!cell->is_locally_owned() || trace.is_empty())
             continue;
-          unsigned int cut = numbers::invalid_unsigned_int;
           for (const auto &chain : trace.chains)
-            is_found[cut = chain.cut] = 1;
+            is_found[chain.cut] = 1;
           for (const auto &openings : trace.openings)
             for (const auto &opening : openings)
-              is_found[cut = opening.cut] = 1;
-          for (const unsigned int f : cell->face_indices())
-            {
-              const bool hangs =
-                !cell->at_boundary(f) &&
-                (cell->neighbor_is_coarser(f) || cell->face(f)->has_children());
-              std::ostringstream message;
-              message << "Cuts/Cuts, '" << cuts_.curves[cut].name
-                      << "': the cut runs through a cell with neighbours of "
-                         "another size, near to the point ("
-                      << maps_.position(cell, faces_.point(f, 0.5))
-                      << "). Refine around the cut alike.";
-              AssertThrow(!hangs, ExcMessage(message.str()));
-            }
+              is_found[opening.cut] = 1;
         }
+      check_sizes();
     });
     is_found = [&]() {
       std::vector<unsigned int> of_all(is_found.size());

@@ -36,6 +36,33 @@ namespace Nacre
       constraints.close();
       return constraints;
     }
+
+    using HangingLine =
+      std::pair<types::global_dof_index,
+                std::vector<std::pair<types::global_dof_index, double>>>;
+
+    /**
+     * Of all ranks: @p dofs, and those that the hanging ones among them follow.
+     */
+    IndexSet
+    with_masters_of_hanging_nodes(const IndexSet                 &dofs,
+                                  const std::vector<HangingLine> &hanging,
+                                  const MPI_Comm                  communicator)
+    {
+      std::vector<types::global_dof_index> masters;
+      for (const auto &[dof, entries] : hanging)
+        if (dofs.is_element(dof))
+          for (const auto &entry : entries)
+            masters.push_back(entry.first);
+      IndexSet all = dofs;
+      for (auto &of_rank : Utilities::MPI::all_gather(communicator, masters))
+        {
+          std::sort(of_rank.begin(), of_rank.end());
+          all.add_indices(of_rank.begin(), of_rank.end());
+        }
+      all.compress();
+      return all;
+    }
   } // namespace
 
   Discretization::Discretization(const Midsurface  &midsurface,
@@ -192,22 +219,30 @@ namespace Nacre
         tip_patches_->complete(numbering_->ends_of_ranks(), parts_);
         numbering_->add_relevant_dofs(tip_patches_->dofs());
       }
-    // A ghost's node may follow nodes beyond the ghosts.
-    IndexSet lines = locally_relevant_dofs();
-    if (extension)
-      lines.add_indices(extension->masters_of_all_ranks());
-    node_constraints_.reinit(lines);
-    for (const auto &line :
-         make_hanging_node_constraints(dof_handler_).get_lines())
+    // No hanging edge has a node of a cut cell.
+    const auto hanging = make_hanging_node_constraints(dof_handler_);
+    std::vector<HangingLine> hanging_lines;
+    for (const auto &line : hanging.get_lines())
       {
         const auto dof = numbering_->number_of(line.index);
         if (dof == numbers::invalid_dof_index)
           continue; // removed
+        hanging_lines.emplace_back(dof, line.entries);
+        for (auto &entry : hanging_lines.back().second)
+          entry.first = numbering_->number_of(entry.first);
+      }
+    // A ghost's node may follow nodes beyond the ghosts.
+    IndexSet lines = locally_relevant_dofs();
+    if (extension)
+      lines.add_indices(
+        with_masters_of_hanging_nodes(extension->masters_of_all_ranks(),
+                                      hanging_lines,
+                                      communicator()));
+    node_constraints_.reinit(lines);
+    for (const auto &[dof, entries] : hanging_lines)
+      {
         node_constraints_.add_line(dof);
-        for (const auto &[master, weight] : line.entries)
-          node_constraints_.add_entry(dof,
-                                      numbering_->number_of(master),
-                                      weight);
+        node_constraints_.add_entries(dof, entries);
       }
     if (extension)
       extension->add_to(node_constraints_, tip_patches_.get());

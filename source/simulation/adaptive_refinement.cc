@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace Nacre
 {
@@ -63,6 +64,14 @@ namespace Nacre
                   "'fixed fraction' 1 refines all cells. Units: none.",
                   prm,
                   Patterns::Double());
+    add_parameter("Cells at tips",
+                  tip_size_,
+                  "Each cycle refines the cells that hold a tip of a cut until "
+                  "their longest edge is no longer than this, along with all "
+                  "cells along that cut; 0: no more than the estimate says. "
+                  "Units: length.",
+                  prm,
+                  Patterns::Double(0.));
     add_parameter("Max dofs",
                   max_dofs_,
                   "A mesh that has more degrees of freedom isn't refined any "
@@ -96,11 +105,9 @@ namespace Nacre
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
-    AssertThrow(problem.model.cuts.is_empty() || max_dofs_ == 1,
-                ExcMessage(section +
-                           "Cycles: cells that cuts (Cuts/Cuts) divide can't "
-                           "be refined yet; set it to 0, or 'Max dofs = 1' "
-                           "to see the estimate of one mesh."));
+    AssertThrow(tip_size_ == 0. || !problem.model.cuts.is_empty(),
+                ExcMessage(section + "Cells at tips: there are no cuts "
+                                     "(Cuts/Cuts); set it to 0."));
     check_path(problem.path);
     AssertThrow(!problem.model.section.has_initial_strain(),
                 ExcMessage(section +
@@ -269,14 +276,35 @@ namespace Nacre
     if (mesh.n_dofs() > max_dofs_ ||
         (tolerance_ > 0. && estimate.value <= tolerance_ * norm))
       return {};
-    return marking_ == MarkingType::doerfler ?
-             RefinementMarking::bulk(estimate.indicators,
-                                     fraction_,
-                                     mesh.communicator()) :
-             RefinementMarking::fixed_fraction(
-               estimate.indicators,
-               fraction_,
-               mesh.triangulation().n_global_active_cells(),
-               mesh.communicator());
+    auto marked = marking_ == MarkingType::doerfler ?
+                    RefinementMarking::bulk(estimate.indicators,
+                                            fraction_,
+                                            mesh.communicator()) :
+                    RefinementMarking::fixed_fraction(
+                      estimate.indicators,
+                      fraction_,
+                      mesh.triangulation().n_global_active_cells(),
+                      mesh.communicator());
+    add_cells_at_tips(mesh, marked);
+    RefinementMarking::add_cells_along_cuts(mesh, marked);
+    return marked;
+  }
+
+  void
+  AdaptiveRefinement::add_cells_at_tips(const Discretization &discretization,
+                                        std::vector<bool>    &marked) const
+  {
+    if (tip_size_ == 0.)
+      return;
+    std::set<CellId> with_tip;
+    for (const auto &tip : discretization.tips())
+      with_tip.insert(tip.cell);
+    for (const auto &cell :
+         discretization.triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && with_tip.count(cell->id()) == 1)
+        for (const auto face : cell->face_indices())
+          if (cell->face(face)->vertex(0).distance(
+                cell->face(face)->vertex(1)) > (1. + 1e-9) * tip_size_)
+            marked[cell->active_cell_index()] = true;
   }
 } // namespace Nacre

@@ -3,39 +3,36 @@
 
 #include <nacre/simulation/displacement_transfer.h>
 
-#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/base/geometry_info.h>
 
 namespace Nacre
 {
   namespace
   {
-    using Vector = TrilinosWrappers::MPI::Vector;
-    using Dofs   = DoFHandler<dim, spacedim>;
+    constexpr unsigned int no_child = numbers::invalid_unsigned_int;
 
-    /** Take the values of @p from, ghosted, to the owned entries of @p to. */
-    void
-    copy_by_cell(const Dofs   &from_dofs,
-                 const Vector &from,
-                 const Dofs   &to_dofs,
-                 Vector       &to)
+    /**
+     * Of polygons (none: the whole cell) the first that holds @p unit. A cut's
+     * chord in a child is not quite that in its parent: else one that is near.
+     */
+    unsigned int
+    part_around(const ReferenceCell                        &kind,
+                const std::vector<std::vector<Point<dim>>> &polygons,
+                const Point<dim>                           &unit)
     {
-      const unsigned int n     = from_dofs.get_fe().n_dofs_per_cell();
-      const IndexSet    &owned = to_dofs.locally_owned_dofs();
-      std::vector<types::global_dof_index> from_indices(n), to_indices(n);
-      for (const auto &cell : from_dofs.active_cell_iterators())
-        if (cell->is_locally_owned())
+      for (const double tolerance : {1e-9, 0.01, 0.1, 1.})
+        for (unsigned int i = 0; i < polygons.size(); ++i)
           {
-            const Dofs::active_cell_iterator same(&to_dofs.get_triangulation(),
-                                                  cell->level(),
-                                                  cell->index(),
-                                                  &to_dofs);
-            cell->get_dof_indices(from_indices);
-            same->get_dof_indices(to_indices);
-            for (unsigned int i = 0; i < n; ++i)
-              if (owned.is_element(to_indices[i]))
-                to(to_indices[i]) = from(from_indices[i]);
+            if (polygons[i].empty())
+              return i;
+            const CellPolygon polygon(kind,
+                                      polygons[i],
+                                      std::vector<CellPolygon::Side>(
+                                        polygons[i].size()));
+            if (polygon.contains(unit, tolerance))
+              return i;
           }
-      to.compress(VectorOperation::insert);
+      return numbers::invalid_unsigned_int;
     }
   } // namespace
 
@@ -43,68 +40,110 @@ namespace Nacre
     const Discretization              &discretization,
     const std::vector<const Vector *> &fields,
     const std::vector<bool>           &marked)
-    : fe_(discretization.dof_handler().get_fe().clone())
-    , dof_handler_(discretization.triangulation())
-    , marked_(marked)
+    : marked_(marked)
+    , cells_(discretization.triangulation().n_active_cells())
   {
-    dof_handler_.distribute_dofs(*fe_);
-    for (const Vector *const field : fields)
+    const auto                          &node_dofs = discretization.node_dofs();
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    for (const CellPart &part : discretization.owned_parts())
       {
-        Vector owned(dof_handler_.locally_owned_dofs(),
-                     dof_handler_.get_communicator());
-        copy_by_cell(discretization.dof_handler(), *field, dof_handler_, owned);
-        values_.push_back(ghosted_vector());
-        values_.back() = owned;
+        auto &of_cell = cells_[part.cell->active_cell_index()];
+        of_cell.emplace_back();
+        if (part.is_cut())
+          for (unsigned int i = 0; i < part.polygon().n_vertices(); ++i)
+            of_cell.back().vertices.push_back(part.polygon().vertex(i));
+        discretization.get_dof_indices(part, dofs);
+        for (const Vector *const field : fields)
+          {
+            of_cell.back().values.emplace_back();
+            for (const unsigned int i : node_dofs)
+              of_cell.back().values.back().push_back((*field)(dofs[i]));
+          }
       }
-  }
-
-  DisplacementTransfer::Vector
-  DisplacementTransfer::ghosted_vector() const
-  {
-    IndexSet relevant;
-    DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
-    return Vector(dof_handler_.locally_owned_dofs(),
-                  relevant,
-                  dof_handler_.get_communicator());
   }
 
   void
   DisplacementTransfer::refine(Mesh &mesh)
   {
-    Assert(&mesh == &dof_handler_.get_triangulation(), ExcInternalError());
+    using Distributed = parallel::DistributedTriangulationBase<dim, spacedim>;
+    using Cell        = Distributed::cell_iterator;
+    using Status      = Distributed::CellStatus;
+    auto &distributed = dynamic_cast<Distributed &>(mesh);
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned() && marked_[cell->active_cell_index()])
         cell->set_refine_flag();
     mesh.prepare_coarsening_and_refinement();
-    transfer_ = std::make_unique<Transfer>(dof_handler_);
-    std::vector<const Vector *> before;
-    for (const Vector &values : values_)
-      before.push_back(&values);
-    transfer_->prepare_for_coarsening_and_refinement(before);
+    const unsigned int handle = distributed.register_data_attach(
+      [&](const Cell &cell, const Status) {
+        return Utilities::pack(cells_[cell->active_cell_index()], false);
+      },
+      true);
     mesh.execute_coarsening_and_refinement();
-    dof_handler_.distribute_dofs(*fe_);
-    std::vector<Vector>   owned(values_.size(),
-                              Vector(dof_handler_.locally_owned_dofs(),
-                                     dof_handler_.get_communicator()));
-    std::vector<Vector *> after;
-    for (Vector &values : owned)
-      after.push_back(&values);
-    transfer_->interpolate(after);
-    for (unsigned int k = 0; k < owned.size(); ++k)
-      {
-        values_[k] = ghosted_vector();
-        values_[k] = owned[k];
-      }
+    cells_.clear();
+    sources_.resize(mesh.n_active_cells());
+    distributed.notify_ready_to_unpack(
+      handle,
+      [&](const Cell &cell, const Status status, const auto &data) {
+        const unsigned int k = cells_.size();
+        cells_.push_back(
+          Utilities::unpack<CellFields>(data.begin(), data.end(), false));
+        if (status == Distributed::CELL_PERSIST)
+          sources_[cell->active_cell_index()] = {k, no_child};
+        else
+          for (unsigned int child = 0; child < cell->n_children(); ++child)
+            sources_[cell->child(child)->active_cell_index()] = {k, child};
+      });
   }
 
   DisplacementTransfer::Vector
   DisplacementTransfer::field_on(const Discretization &discretization,
                                  const unsigned int    k) const
   {
-    Vector owned(discretization.locally_owned_dofs(),
-                 discretization.communicator());
-    copy_by_cell(dof_handler_, values_[k], discretization.dof_handler(), owned);
-    discretization.node_constraints().distribute(owned);
-    return owned;
+    const IndexSet    &owned     = discretization.locally_owned_dofs();
+    const auto        &fe        = discretization.scalar_fe();
+    const auto        &node_dofs = discretization.node_dofs();
+    const auto         kind      = fe.reference_cell();
+    const unsigned int n_nodes   = fe.n_dofs_per_cell();
+    Vector             result(owned, discretization.communicator());
+    std::vector<types::global_dof_index> dofs(node_dofs.size());
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        const Source source = sources_[part.cell->active_cell_index()];
+        const auto   before = [&](const Point<dim> &unit) {
+          return source.child == no_child ?
+                     unit :
+                     GeometryInfo<dim>::child_to_cell_coordinates(unit,
+                                                                source.child);
+        };
+        std::vector<std::vector<Point<dim>>> polygons;
+        for (const PartFields &fields : cells_[source.cell])
+          polygons.push_back(fields.vertices);
+        const unsigned int around =
+          part_around(kind,
+                      polygons,
+                      before(part.is_cut() ? part.polygon().inner_point() :
+                                             kind.barycenter<dim>()));
+        if (around == numbers::invalid_unsigned_int)
+          continue; // All was removed: a sliver, which follows another part.
+        const auto &values = cells_[source.cell][around].values[k];
+        discretization.get_dof_indices(part, dofs);
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          {
+            const Point<dim> unit = before(fe.unit_support_point(a));
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const auto dof = dofs[node_dofs[spacedim * a + c]];
+                if (!owned.is_element(dof))
+                  continue;
+                double value = 0.;
+                for (unsigned int b = 0; b < n_nodes; ++b)
+                  value += fe.shape_value(b, unit) * values[spacedim * b + c];
+                result(dof) = value;
+              }
+          }
+      }
+    result.compress(VectorOperation::insert);
+    discretization.node_constraints().distribute(result);
+    return result;
   }
 } // namespace Nacre

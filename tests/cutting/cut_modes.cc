@@ -85,6 +85,45 @@ namespace
       }
   }
 
+  /** Cells of two or three sizes; the layer around the cuts is of one. */
+  void
+  test_hanging(const std::string           &name,
+               const Element               &element,
+               const std::vector<CutCurve> &cuts,
+               const std::vector<Point<3>> &refined_at,
+               const unsigned int           n_modes)
+  {
+    const CutShell shell(surface_text("u, v, 0", 5, 5),
+                         element,
+                         cuts,
+                         {},
+                         refined_at);
+    const auto     values = scaled_eigenvalues(shell);
+    const auto where = "hanging nodes, " + name + ", " + label(element) + ": ";
+    check_below(where + std::to_string(n_modes) + " zero modes",
+                std::abs(values[n_modes - 1]) / values[values.size() - 1],
+                1e-10);
+    check_below(where + "condition number of the others",
+                values[values.size() - 1] / values[n_modes],
+                1e6);
+  }
+
+  void
+  test_all_hanging()
+  {
+    const CutCurve one    = line("one", {{-.1, .13}, {1.1, .17}});
+    const CutCurve across = line("across", {{.11, -.1}, {.17, 1.1}});
+    const CutCurve tip    = line("tip", {{-.1, .13}, {.5, .16}});
+    const Element  p_2{ElementType::lagrange, 2};
+    const Element  p_3{ElementType::lagrange, 3};
+    // Beside the layer; that of the cut
+    const Point<3> beside(.5, .5, 0.), at_cut(.1, .15, 0.);
+    test_hanging("one cut", p_2, {one}, {at_cut}, 12);
+    test_hanging("one cut", p_3, {one}, {beside}, 12);
+    test_hanging("crossing", p_2, {one, across}, {beside}, 24);
+    test_hanging("tip inside", p_2, {tip}, {beside}, 6);
+  }
+
   /** A cut along edges of cells is a mesh whose nodes are double there. */
   void
   test_seam(const Element &element)
@@ -105,6 +144,7 @@ main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_conditions();
+  test_all_hanging();
   for (const auto &element :
        {Element{ElementType::lagrange, 2}, serendipity, triangle})
     test_seam(element);

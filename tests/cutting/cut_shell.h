@@ -7,6 +7,7 @@
 // A shell that cuts divide, for tests of its forms.
 
 #include "../finite/finite_shell.h"
+#include <nacre/postprocess/refinement_marking.h>
 #include <nacre/problem/cuts.h>
 
 namespace CutShells
@@ -36,26 +37,25 @@ namespace CutShells
            "\n  set Range u = " + range_u + "\n end\nend\n" + section;
   }
 
-  /** A shell and its parts. */
+  /** A shell and its parts; the cells at @p refined_at are quartered. */
   struct CutShell
   {
     CutShell(const std::string           &text,
              const Element               &element,
              const std::vector<CutCurve> &curves,
-             const KinematicsOptions     &options = {})
+             const KinematicsOptions     &options    = {},
+             const std::vector<Point<3>> &refined_at = {})
       : parameters(text)
     {
-      Cuts cuts;
-      cuts.curves       = curves;
       const auto &model = parameters.model;
-      discretization    = std::make_unique<Discretization>(
+      make_discretization(
         model.midsurface.create_triangulation(MPI_COMM_WORLD,
                                               element.reference_cell(),
                                               0),
-        model.midsurface,
         element,
-        0,
-        cuts);
+        curves);
+      for (const auto &point : refined_at)
+        refine(point, element, curves);
       KinematicsOptions kinematics = options;
       if (element.type == ElementType::serendipity)
         kinematics.membrane_strain = MembraneStrain::reduced;
@@ -65,6 +65,42 @@ namespace CutShells
                                                        model.loads,
                                                        kinematics,
                                                        {}));
+    }
+
+    using Mesh = parallel::TriangulationBase<2, 3>;
+
+    void
+    make_discretization(std::unique_ptr<Mesh>        mesh,
+                        const Element               &element,
+                        const std::vector<CutCurve> &curves)
+    {
+      Cuts cuts;
+      cuts.curves = curves;
+      discretization =
+        std::make_unique<Discretization>(std::move(mesh),
+                                         parameters.model.midsurface,
+                                         element,
+                                         0,
+                                         cuts);
+    }
+
+    void
+    refine(const Point<3>              &point,
+           const Element               &element,
+           const std::vector<CutCurve> &curves)
+    {
+      std::vector<bool> marked(discretization->triangulation().n_active_cells(),
+                               false);
+      marked[discretization->nearest(point).part.cell->active_cell_index()] =
+        true;
+      RefinementMarking::add_cells_along_cuts(*discretization, marked);
+      auto mesh = discretization->release_triangulation();
+      discretization.reset();
+      for (const auto &cell : mesh->active_cell_iterators())
+        if (marked[cell->active_cell_index()])
+          cell->set_refine_flag();
+      mesh->execute_coarsening_and_refinement();
+      make_discretization(std::move(mesh), element, curves);
     }
 
     /** Nodal values of a field of each part; followers follow. */

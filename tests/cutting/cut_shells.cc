@@ -16,14 +16,17 @@ namespace
    * side of it: no force at nodes inside.
    */
   void
-  test_patch(const Element &element, const MembraneStrain strain)
+  test_patch(const Element               &element,
+             const MembraneStrain         strain,
+             const std::vector<Point<3>> &refined_at = {})
   {
     const double   s = std::sin(.576), c = std::cos(.576), nu = .3;
     const CutShell shell(
       surface_text("u, v, 0", 8, 5, "0, 2"),
       element,
       {line("cut", {{1. - 3. * c, .5 - 3. * s}, {1. + 3. * c, .5 + 3. * s}})},
-      strain);
+      strain,
+      refined_at);
     const auto u =
       shell.interpolate([&](const CellPart &part, const Point<3> &X) {
         const auto   inside = shell.discretization->point_inside(part);
@@ -54,14 +57,17 @@ namespace
           largest         = std::max(largest, std::abs(force(i)));
           n_inside += on_boundary[i] ? 0 : 1;
         }
-    const auto name = "patch, " + label(element) + ", " + name_of(strain);
+    const auto name = "patch, " + label(element) + ", " + name_of(strain) +
+                      (refined_at.empty() ? "" : ", hanging nodes");
     check_below(name + ": force inside", inside / outside, 1e-9);
     check_above(name + ": nodes inside", n_inside, 60);
   }
 
   /** Two pieces of a curved shell, each moved as a rigid body. */
   void
-  test_finite_motions(const Element &element, const KinematicsModel model)
+  test_finite_motions(const Element               &element,
+                      const KinematicsModel        model,
+                      const std::vector<Point<3>> &refined_at = {})
   {
     const double   E = 100., h = .2;
     const CutShell shell(
@@ -76,7 +82,8 @@ namespace
       {MembraneStrain::tied,
        EdgeForm::rotation_jump,
        model,
-       TangentType::consistent});
+       TangentType::consistent},
+      refined_at);
     const ShellComponents components(*shell.discretization);
     const VectorField     motions[] = {
           rigid_motion(Vector3{{1.9, -1.2, .8}}, Vector3{{.3, -2., 1.}}),
@@ -89,7 +96,8 @@ namespace
     shell.assembly->residual(u, force);
     const auto name =
       "two finite motions, " + label(element) + ", " +
-      (model == KinematicsModel::finite ? "finite: " : "corotational: ");
+      (model == KinematicsModel::finite ? "finite: " : "corotational: ") +
+      (refined_at.empty() ? "" : "hanging nodes, ");
     unsigned int n_followers = 0;
     for (unsigned int i = 0; i < shell.discretization->n_dofs(); ++i)
       n_followers +=
@@ -119,5 +127,17 @@ main(int argc, char *argv[])
                                 Element{ElementType::lagrange, 3},
                                 triangle})
       test_finite_motions(element, model);
+
+  // Smaller cells beside the layer around the cut, then the cut's smaller, too
+  const std::vector<Point<3>> corners{{.1, .9, 0.}, {1.9, .1, 0.}};
+  auto                        all = corners;
+  all.emplace_back(1., .5, 0.);
+  const Element quadratic{ElementType::lagrange, 2};
+  test_patch({ElementType::lagrange, 3}, MembraneStrain::tied, corners);
+  test_patch(quadratic, MembraneStrain::tied, all);
+  test_finite_motions(quadratic,
+                      KinematicsModel::finite,
+                      {{.63, -.7, .12}, {.09, .41, .07}});
+  test_finite_motions(serendipity, KinematicsModel::finite, {{.63, -.7, .12}});
   return n_failures > 0;
 }

@@ -59,6 +59,18 @@ namespace Nacre
              entries_[entry_of_cell_[cell->active_cell_index()]].is_cut;
     }
 
+    /**
+     * Whether a cut ends in, divides or runs along an owned cell, or does so
+     * in a cell that shares a vertex with it. Such cells have one size along
+     * the cut, so that no hanging node has several copies.
+     */
+    bool
+    is_near_cut(const Cell &cell) const
+    {
+      return is_touched(cell) &&
+             entries_[entry_of_cell_[cell->active_cell_index()]].is_near_cut;
+    }
+
     /** Whether the edge is met in pieces, since one of its cells is cut. */
     bool
     has_pieces(const Cell &cell, const unsigned int face) const
@@ -142,7 +154,8 @@ namespace Nacre
     /** What is known of a touched cell. */
     struct Entry
     {
-      bool                  is_cut = false;
+      bool                  is_cut      = false;
+      bool                  is_near_cut = false;
       std::vector<PartData> parts;
       /** By face: intervals along which a cut runs. */
       std::vector<std::vector<std::array<double, 2>>> opened;

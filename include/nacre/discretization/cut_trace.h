@@ -65,7 +65,8 @@ namespace Nacre
     /**
      * Trace the @p cuts through the owned cells of @p mesh and tell neighbours
      * on other ranks; collective. Throws if a cut has no part in the surface,
-     * if cells that are cut have hanging edges, and as make_cut_paths() does.
+     * if cells at the vertices of a cut one are of another size, and as
+     * make_cut_paths() does.
      */
     CutTrace(const parallel::TriangulationBase<dim, spacedim> &mesh,
              const CellMaps                                   &maps,

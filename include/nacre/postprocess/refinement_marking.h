@@ -4,9 +4,7 @@
 #ifndef nacre_postprocess_refinement_marking_h
 #define nacre_postprocess_refinement_marking_h
 
-#include <nacre/base/types.h>
-
-#include <deal.II/base/mpi.h>
+#include <nacre/discretization/discretization.h>
 
 #include <vector>
 
@@ -39,6 +37,17 @@ namespace Nacre
                    const double                   fraction,
                    const types::global_cell_index n_cells,
                    const MPI_Comm                 communicator);
+
+    /**
+     * Mark what must be refined along with the @p marked cells of this rank:
+     * where one cell near a cut (CellParts::is_near_cut()) is, all cells near
+     * that cut and those that touch it are, so that they keep one size; and
+     * cells that would get neighbours of less than half their size, as p4est
+     * refines them.
+     */
+    void
+    add_cells_along_cuts(const Discretization &discretization,
+                         std::vector<bool>    &marked);
   } // namespace RefinementMarking
 } // namespace Nacre
 

@@ -119,7 +119,7 @@ namespace Nacre
 
     /**
      * The cells to refine, or nothing if the mesh has dofs enough or the
-     * estimate is below the tolerance.
+     * estimate is below the tolerance. Of cuts, all cells along them or none.
      */
     std::optional<std::vector<bool>>
     mark(const ErrorEstimate &estimate, const SolvedShell &solution) const;
@@ -133,11 +133,17 @@ namespace Nacre
     unsigned int  max_dofs_  = 1000000;
     double        tolerance_ = 0.;
     unsigned int  n_steps_   = 1;
+    /** Length; 0: no rule of their own. */
+    double tip_size_ = 0.;
 
     /** What no nonlinear analysis can do. */
     void
     check_path(const PathParameters &path) const;
 
+    /** Mark this rank's cells that hold a tip and are longer than tip_size_. */
+    void
+    add_cells_at_tips(const Discretization &discretization,
+                      std::vector<bool>    &marked) const;
 
     /** Place of the goal among the quantities. */
     std::optional<unsigned int> goal_index_;

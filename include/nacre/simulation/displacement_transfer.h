@@ -6,19 +6,18 @@
 
 #include <nacre/discretization/discretization.h>
 
-#include <deal.II/distributed/solution_transfer.h>
-
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <memory>
+#include <vector>
 
 namespace Nacre
 {
   /**
    * Carries displacements to the mesh that refinement makes of its own: the
-   * same polynomials of the reference cells, on any ranks. New nodes of the
-   * geometry lie on the exact surface, so that the deformed surface changes by
-   * as much as the undeformed one does.
+   * same polynomials of the reference cells, on any ranks. A part of a cell
+   * takes those of the part before in which its inner point lies. New nodes of
+   * the geometry lie on the exact surface, so that the deformed surface changes
+   * by as much as the undeformed one does.
    *
    * The steps, each collective: the constructor; Discretization's triangulation
    * is released; refine(); another Discretization takes it; field_on().
@@ -41,23 +40,43 @@ namespace Nacre
     void
     refine(Mesh &mesh);
 
-    /** The field @p k, owned entries, hanging nodes included. */
+    /** The field @p k, owned entries, nodes that follow others included. */
     Vector
     field_on(const Discretization &discretization, const unsigned int k) const;
 
   private:
-    using Transfer =
-      parallel::distributed::SolutionTransfer<dim, Vector, spacedim>;
+    /** The fields on a part of a cell. */
+    struct PartFields
+    {
+      /** Of its polygon; none: the whole cell. */
+      std::vector<Point<dim>> vertices;
+      /** By field, then 3 node + component. */
+      std::vector<std::vector<double>> values;
 
-    /** A vector of dof_handler_ with all values of this rank's cells. */
-    Vector
-    ghosted_vector() const;
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &vertices &values;
+      }
+    };
 
-    const std::unique_ptr<FiniteElement<dim, spacedim>> fe_;
-    DoFHandler<dim, spacedim>                           dof_handler_;
-    const std::vector<bool>                             marked_;
-    std::vector<Vector>                                 values_;
-    std::unique_ptr<Transfer>                           transfer_;
+    /** Of all parts of a cell. */
+    using CellFields = std::vector<PartFields>;
+
+    /** Where a refined mesh's cell comes from. */
+    struct Source
+    {
+      /** In cells_. */
+      unsigned int cell;
+      /** Which child of that cell; invalid: that cell itself. */
+      unsigned int child;
+    };
+
+    const std::vector<bool> marked_;
+    std::vector<CellFields> cells_;
+    /** By active cell index of the refined mesh, for this rank's cells. */
+    std::vector<Source> sources_;
   };
 } // namespace Nacre
 
