@@ -96,6 +96,10 @@ namespace Nacre
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
                            "; it must be above 0 and at most 1."));
+    AssertThrow(!problem.growth.is_on(),
+                ExcMessage(section +
+                           "Cycles: cuts that grow (Growth/Tips) keep their "
+                           "mesh; set it to 0."));
     AssertThrow(problem.model.cuts.is_empty() || max_dofs_ == 1,
                 ExcMessage(section +
                            "Cycles: cells that cuts (Cuts/Cuts) divide can't "
