@@ -8,6 +8,7 @@ namespace Nacre
   CrackPoints::CrackPoints(const ShellState      &state,
                            const Quadrature<dim> &points)
     : state_(state)
+    , is_linear_(state.model.kinematics.model == KinematicsModel::linear)
     , quadrature_(points)
     , strains_(state, points)
     , u_(state.discretization.node_dofs().size())
@@ -22,15 +23,14 @@ namespace Nacre
   }
 
   void
-  CrackPoints::reinit(
-    const DoFHandler<dim, spacedim>::active_cell_iterator &cell)
+  CrackPoints::reinit(const CellPart &part)
   {
-    strains_.reinit(cell);
+    strains_.reinit(part);
     std::vector<types::global_dof_index> dofs;
-    state_.discretization.get_dof_indices(cell, dofs);
+    state_.discretization.get_dof_indices(part, dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i)
       u_[i] = state_.displacement(dofs[i]);
-    nodes_ = state_.discretization.geometry_nodes(cell);
+    nodes_ = state_.discretization.geometry_nodes(part);
   }
 
   SurfacePatch
@@ -48,7 +48,7 @@ namespace Nacre
   }
 
   VectorDerivatives
-  CrackPoints::displacement(const unsigned int q) const
+  CrackPoints::derivatives(const unsigned int q) const
   {
     const auto       &values = strains_.values();
     const auto       &shapes = values.shapes();

@@ -4,7 +4,11 @@
 #include <nacre/base/expression.h>
 #include <nacre/base/text.h>
 #include <nacre/postprocess/crack_quantities.h>
-#include <nacre/postprocess/crack_tip.h>
+#include <nacre/postprocess/cut_quantities.h>
+#include <nacre/postprocess/tip_release.h>
+#include <nacre/problem/cuts.h>
+
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 
@@ -12,9 +16,6 @@ namespace Nacre
 {
   namespace
   {
-    /** Radii of the plateau, in cells at the tip. */
-    constexpr double inner_cells = 2., outer_cells = 6.;
-
     CrackPlateau
     parse_radii(const std::string &text,
                 const std::string &where,
@@ -46,12 +47,15 @@ namespace Nacre
                                           {Kind::opening, "K_I"},
                                           {Kind::sliding, "K_II"},
                                           {Kind::bending, "K_M"},
-                                          {Kind::twisting, "K_T"}};
+                                          {Kind::twisting, "K_T"},
+                                          {Kind::kink_angle, "kink angle"}};
     return table;
   }
 
   std::optional<CrackQuantity>
-  parse_crack_quantity(QuantityPhrase &phrase, const Constants &constants)
+  parse_crack_quantity(QuantityPhrase  &phrase,
+                       const Cuts      &cuts,
+                       const Constants &constants)
   {
     const auto &kinds = selection(CrackQuantity::Kind());
     const auto  found =
@@ -61,18 +65,48 @@ namespace Nacre
     if (found == kinds.end())
       return {};
     CrackQuantity quantity{found->first};
-    quantity.where = phrase.where;
-    AssertThrow(phrase.take("of") && phrase.take("tip"),
-                ExcMessage(phrase.where + ": write '" + found->second +
-                           " of tip (x, y, z)', with 'radii INNER, OUTER' "
-                           "behind it for other radii than " +
-                           Text::number(inner_cells) + " and " +
-                           Text::number(outer_cells) + " cells at the tip."));
-    quantity.tip =
-      evaluate_point(phrase.up_to("radii"), phrase.where, constants);
+    quantity.where         = phrase.where;
+    const std::string form = phrase.where + ": write '" + found->second +
+                             " of CUT begin' or '" + found->second +
+                             " of CUT end' of a cut, '" + found->second +
+                             " of tip (x, y, z)' of a slit of the mesh, with "
+                             "'radii INNER, OUTER' behind it for other radii.";
+    AssertThrow(phrase.take("of"), ExcMessage(form));
+    const std::string tip = phrase.up_to("radii");
+    const bool        is_slit =
+      QuantityPhrase{tip, ""}.take("tip") && tip.find('(') != std::string::npos;
+    if (is_slit)
+      quantity.point = evaluate_point(tip.substr(3), phrase.where, constants);
+    else
+      {
+        const auto        space = tip.find_last_of(' ');
+        const std::string end =
+          space == std::string::npos ? "" : tip.substr(space + 1);
+        AssertThrow(end == "begin" || end == "end", ExcMessage(form));
+        quantity.cut_end = {find_cut(Text::trim(tip.substr(0, space)),
+                                     cuts,
+                                     phrase.where),
+                            end == "end"};
+      }
     if (!phrase.text.empty())
       quantity.plateau = parse_radii(phrase.text, phrase.where, constants);
     return quantity;
+  }
+
+  CrackTip
+  find_tip_of(const Discretization &discretization,
+              const Cuts           &cuts,
+              const CrackQuantity  &quantity)
+  {
+    if (!quantity.cut_end)
+      return find_crack_tip(discretization, quantity.point, quantity.where);
+    return make_crack_tip(discretization,
+                          find_cut_tip(discretization,
+                                       cuts,
+                                       quantity.cut_end->cut,
+                                       quantity.cut_end->at_end,
+                                       quantity.where),
+                          quantity.where);
   }
 
   double
@@ -80,12 +114,10 @@ namespace Nacre
                           const CrackQuantity &quantity)
   {
     const auto tip =
-      find_crack_tip(shell.discretization, quantity.tip, quantity.where);
+      find_tip_of(shell.discretization, shell.model.cuts, quantity);
     const EnergyRelease release(shell,
                                 tip,
-                                quantity.plateau.value_or(
-                                  CrackPlateau{inner_cells * tip.cell_size,
-                                               outer_cells * tip.cell_size}),
+                                quantity.plateau.value_or(default_plateau(tip)),
                                 quantity.where);
     using Kind = CrackQuantity::Kind;
     switch (quantity.kind)
@@ -100,6 +132,15 @@ namespace Nacre
           return release.intensity(CrackMode::bending);
         case Kind::twisting:
           return release.intensity(CrackMode::twisting);
+        case Kind::kink_angle:
+          {
+            const auto plate = release.plate_or_throw();
+            return largest_hoop_stress(
+                     release.rate_and_intensities(plate).intensities,
+                     plate)
+                     .angle *
+                   180. / numbers::PI;
+          }
       }
     Assert(false, ExcInternalError());
     return 0.;

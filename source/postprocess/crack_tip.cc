@@ -4,6 +4,7 @@
 #include <nacre/base/text.h>
 #include <nacre/discretization/shape_table.h>
 #include <nacre/postprocess/crack_tip.h>
+#include <nacre/problem/cuts.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -119,6 +120,118 @@ namespace Nacre
       return all;
     }
 
+    /** The distance of a point from this rank's lines of all cuts but one. */
+    double
+    distance_of_other_cuts(const Discretization &discretization,
+                           const unsigned int    cut,
+                           const Point<3>       &x)
+    {
+      double nearest = std::numeric_limits<double>::max();
+      for (const auto &line : discretization.cut_lines())
+        if (line.cut != cut)
+          for (unsigned int i = 0; i + 1 < line.points.size(); ++i)
+            {
+              const Tensor<1, 3> d = line.points[i + 1] - line.points[i];
+              if (d.norm() == 0.)
+                continue;
+              const double part = ((x - line.points[i]) * d) / (d * d);
+              const auto   place =
+                line.points[i] + std::min(1., std::max(0., part)) * d;
+              nearest = std::min(nearest, x.distance(place));
+            }
+      return nearest;
+    }
+
+    /** What the cell of the tip of a cut tells; of one rank. */
+    struct TipCell
+    {
+      double longest_edge = 0.;
+      /** Whether the cut ends inside the cell or along an edge of it. */
+      bool ends_inside = false;
+    };
+
+    TipCell
+    tip_cell(const Discretization &discretization, const CutTrace::Tip &tip)
+    {
+      TipCell result;
+      for (const auto &cell :
+           discretization.dof_handler().active_cell_iterators())
+        {
+          if (!cell->is_locally_owned() || cell->id() != tip.cell)
+            continue;
+          const auto            reference = cell->reference_cell();
+          const auto            nodes     = discretization.geometry_nodes(cell);
+          GeometryTable::Values values;
+          GeometryTable(discretization.geometry_fe(), {tip.unit})
+            .evaluate(nodes, values);
+          // An edge on which the cut ends, coming through the cell, ends the
+          // crack. One along which it runs is closed as a whole.
+          result.ends_inside = true;
+          for (const unsigned int face : cell->face_indices())
+            {
+              const auto end = [&](const unsigned int i) {
+                return reference.face_to_cell_vertices(face, i, 1);
+              };
+              result.longest_edge =
+                std::max(result.longest_edge,
+                         nodes[end(0)].distance(nodes[end(1)]));
+              const auto first = reference.template vertex<2>(end(0));
+              const auto d     = reference.template vertex<2>(end(1)) - first;
+              const auto y     = tip.unit - first;
+              if (std::abs(d[0] * y[1] - d[1] * y[0]) > 1e-10)
+                continue;
+              const auto along =
+                d[0] * values.tangent(0, 0) + d[1] * values.tangent(0, 1);
+              const bool is_vertex =
+                std::min(y * d, d * d - y * d) < 1e-10 * (d * d);
+              const double cosine = along * tip.direction / along.norm();
+              if (is_vertex || std::abs(cosine) < 1. - 1e-6)
+                result.ends_inside = false;
+            }
+        }
+      return result;
+    }
+
+    /** The other end of the cut's last line, which ends at the tip. */
+    Point<3>
+    begin_of_last_line(const Discretization &discretization,
+                       const CutTrace::Tip  &tip)
+    {
+      std::vector<Point<3>> mine;
+      for (const auto &line : discretization.cut_lines())
+        {
+          if (line.cut != tip.cut)
+            continue;
+          const auto  &a = line.points.front(), &b = line.points.back();
+          const double near = 1e-6 * a.distance(b);
+          if (b.distance(tip.position) <= near)
+            mine.push_back(a);
+          else if (a.distance(tip.position) <= near)
+            mine.push_back(b);
+        }
+      for (const auto &of_rank :
+           Utilities::MPI::all_gather(discretization.communicator(), mine))
+        if (!of_rank.empty())
+          return of_rank.front();
+      return tip.position;
+    }
+
+    /** The normal at a place, the same on all ranks. */
+    Tensor<1, 3>
+    normal_at(const Discretization &discretization, const SurfacePoint &place)
+    {
+      Tensor<1, 3> normal;
+      if (place.is_mine)
+        {
+          GeometryTable::Values values;
+          GeometryTable(discretization.geometry_fe(), {place.unit})
+            .evaluate(discretization.geometry_nodes(place.part), values);
+          normal = cross_product_3d(values.tangent(0, 0), values.tangent(0, 1));
+          normal /= normal.norm();
+        }
+      return Utilities::MPI::sum(normal, discretization.communicator());
+    }
+
     std::string
     coordinates(const Point<3> &x)
     {
@@ -175,5 +288,74 @@ namespace Nacre
     e[0] /= e[0].norm();
     e[1] = cross_product_3d(e[2], e[0]);
     return tip;
+  }
+
+  const CutTrace::Tip &
+  find_cut_tip(const Discretization &discretization,
+               const Cuts           &cuts,
+               const unsigned int    cut,
+               const bool            at_end,
+               const std::string    &where)
+  {
+    const auto       &curve = cuts.curves[cut];
+    const std::string name  = "'" + curve.name + "'";
+    const std::string end   = at_end ? "end" : "begin";
+    AssertThrow(!curve.is_closed,
+                ExcMessage(where + ": the cut " + name +
+                           " is closed; it has no tips."));
+    const auto &tips  = discretization.tips();
+    const auto  found = std::find_if(tips.begin(), tips.end(), [&](auto &tip) {
+      return tip.cut == cut && tip.at_end == at_end;
+    });
+    AssertThrow(found != tips.end(),
+                ExcMessage(where + ": the " + end + " of the cut " + name +
+                           " is no tip; it doesn't lie inside the surface."));
+    const MPI_Comm communicator = discretization.communicator();
+    const double   distance     = Utilities::MPI::min(
+      distance_of_other_cuts(discretization, cut, found->position),
+      communicator);
+    const double size =
+      Utilities::MPI::max(tip_cell(discretization, *found).longest_edge,
+                          communicator);
+    AssertThrow(distance > 1e-3 * size,
+                ExcMessage(where + ": the " + end + " of the cut " + name +
+                           " is no tip; it lies on another cut."));
+    return *found;
+  }
+
+  CrackTip
+  make_crack_tip(const Discretization &discretization,
+                 const CutTrace::Tip  &tip,
+                 const std::string    &where)
+  {
+    const MPI_Comm communicator = discretization.communicator();
+    const TipCell  mine         = tip_cell(discretization, tip);
+    const double   size = Utilities::MPI::max(mine.longest_edge, communicator);
+    const bool     ends_inside =
+      Utilities::MPI::max(mine.ends_inside ? 1 : 0, communicator) == 1;
+    const Point<3> begin = begin_of_last_line(discretization, tip);
+    const auto     place =
+      discretization.nearest(ends_inside ? begin : tip.position);
+    const auto normal = normal_at(discretization, place);
+    const auto region =
+      Utilities::MPI::max(place.is_mine ? place.part.cell->material_id() : 0u,
+                          communicator);
+
+    CrackTip result{SectionPoint(place.position, region), {}, size};
+    auto    &e = result.axes;
+    e[2]       = normal;
+    e[0]       = tip.direction - (tip.direction * normal) * normal;
+    e[0] /= e[0].norm();
+    e[1]                     = cross_product_3d(e[2], e[0]);
+    const Tensor<1, 3> ahead = tip.position - place.position;
+    result.closed            = std::max(0., ahead * e[0]);
+    AssertThrow(std::abs(ahead * e[1]) <= 0.05 * size,
+                ExcMessage(where +
+                           ": the cut turns within the cell in which "
+                           "it ends, at " +
+                           coordinates(tip.position) +
+                           ", where the mesh doesn't open it; refine the mesh "
+                           "there."));
+    return result;
   }
 } // namespace Nacre

@@ -3,12 +3,13 @@
 
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
+#include <nacre/discretization/part_quadrature.h>
 #include <nacre/forms/shell_actions.h>
 #include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/crack_lips.h>
 #include <nacre/postprocess/crack_points.h>
 #include <nacre/postprocess/energy_release.h>
 
-#include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -43,6 +44,16 @@ namespace Nacre
       return QGauss<dim>(n);
     }
 
+    /** Of a part of a divided cell. */
+    Quadrature<dim>
+    ring_quadrature(const Discretization &discretization, const CellPart &part)
+    {
+      // 2 degree + 1 points a direction
+      const unsigned int n = n_points(discretization);
+      return part_quadrature(part.polygon(),
+                             std::max(discretization.degree(), n / 2));
+    }
+
     std::string
     coordinates_of(const Point<3> &x)
     {
@@ -50,13 +61,25 @@ namespace Nacre
              Text::number(x[2]) + ")";
     }
 
-    /** Positive for cells on the side of e_2. */
+    /**
+     * Positive for a part on the side of e_2 behind the tip, negative for one
+     * on the other, 0 for one that lies at no lip.
+     */
     double
-    side_of(const CrackTip &tip, const ArrayView<const Point<spacedim>> &nodes)
+    side_of(const Discretization &discretization,
+            const CrackTip       &tip,
+            const CellPart       &part,
+            const CrackPoints    &points)
     {
+      const bool has_lip = discretization.cell_parts().is_cut(part.cell) ||
+                           part.cell->at_boundary();
       double side = 0.;
-      for (const auto &x : nodes)
-        side += (x - tip.position) * tip.axes[1];
+      for (unsigned int q = 0; has_lip && q < points.size(); ++q)
+        {
+          const Tensor<1, 3> d = points.surface(q).position - tip.position;
+          if (d * tip.axes[0] < 0.)
+            side += points.weight(q) * (d * tip.axes[1]);
+        }
       return side;
     }
 
@@ -143,6 +166,7 @@ namespace Nacre
     Assert(0. < plateau.inner && plateau.inner < plateau.outer,
            ExcMessage("Radii of a plateau"));
     check_model();
+    check_cuts();
     run_on_all_ranks(shell.discretization.communicator(),
                      [&]() { check_inside(); });
     check_lips();
@@ -172,30 +196,41 @@ namespace Nacre
   }
 
   void
-  EnergyRelease::for_each_cell(
-    const std::function<void(const cell_iterator &)> &function) const
+  EnergyRelease::check_cuts() const
   {
-    for (const auto &cell :
-         shell_.discretization.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const auto   nodes   = shell_.discretization.geometry_nodes(cell);
-          const double size    = nodes[0].distance(nodes[nodes.size() - 1]);
-          double       nearest = nodes[0].distance(tip_.position);
-          double       extent  = size;
-          for (const auto &x : nodes)
-            {
-              nearest = std::min(nearest, x.distance(tip_.position));
-              extent  = std::max(extent, x.distance(nodes[0]));
-            }
-          if (nearest >= plateau_.outer + extent)
-            continue;
-          AssertThrow(!shell_.discretization.cell_parts().is_touched(cell),
-                      ExcMessage(where_ +
-                                 "lies a cut of Cuts/Cuts; tips of slits of "
-                                 "the mesh are meant here."));
-          function(cell);
-        }
+    // The two ends of a cut may lie in one cell, and open nothing.
+    for (const auto &tip : shell_.discretization.tips())
+      {
+        const double distance = tip.position.distance(tip_.position);
+        AssertThrow(distance > plateau_.outer ||
+                      tip.position.distance(tip_.position +
+                                            tip_.closed * tip_.axes[0]) <
+                        0.1 * tip_.cell_size,
+                    ExcMessage(where_ + "lies another tip, of the cut '" +
+                               shell_.model.cuts.curves[tip.cut].name +
+                               "', at " + coordinates_of(tip.position) +
+                               "; choose smaller radii, and cells that suit "
+                               "them."));
+      }
+  }
+
+  void
+  EnergyRelease::for_each_part(
+    const std::function<void(const CellPart &)> &function) const
+  {
+    for (const CellPart &part : shell_.discretization.owned_parts())
+      {
+        const auto nodes   = shell_.discretization.geometry_nodes(part);
+        double     nearest = nodes[0].distance(tip_.position);
+        double     extent  = nodes[0].distance(nodes[nodes.size() - 1]);
+        for (const auto &x : nodes)
+          {
+            nearest = std::min(nearest, x.distance(tip_.position));
+            extent  = std::max(extent, x.distance(nodes[0]));
+          }
+        if (nearest < plateau_.outer + extent)
+          function(part);
+      }
   }
 
   void
@@ -203,9 +238,11 @@ namespace Nacre
   {
     const auto     &tip_region = tip_.position.region();
     ShellEdgeValues edge(shell_.discretization);
-    for_each_cell([&](const cell_iterator &cell) {
-      for (const unsigned int face : cell->face_indices())
-        edge.for_pieces_to_neighbor(cell, face, [&](const auto &edge) {
+    for_each_part([&](const CellPart &part) {
+      if (part.data != nullptr && part.data->number != 0)
+        return; // all pieces of the cell's edges at once
+      for (const unsigned int face : part.cell->face_indices())
+        edge.for_pieces_to_neighbor(part.cell, face, [&](const auto &edge) {
           for (unsigned int q = 0; q < edge.n_points(); ++q)
             {
               const Point<3> x = edge.point(q);
@@ -237,31 +274,21 @@ namespace Nacre
   EnergyRelease::for_each_lip_point(
     const std::function<void(const LipPoint &)> &function) const
   {
-    const auto     &discretization = shell_.discretization;
-    const auto      reference      = discretization.element().reference_cell();
-    const QGauss<1> rule(n_points(discretization));
-    std::vector<CrackPoints> points; // by face
-    for (const unsigned int face : reference.face_indices())
-      {
-        std::vector<Point<dim>> on_face(rule.size());
-        QProjector<dim>::project_to_face(reference, rule, face, on_face);
-        points.emplace_back(shell_,
-                            Quadrature<dim>(on_face, rule.get_weights()));
-      }
-
-    for_each_cell([&](const cell_iterator &cell) {
-      for (const unsigned int face : cell->face_indices())
+    const QGauss<1> rule(n_points(shell_.discretization));
+    for_each_part([&](const CellPart &part) {
+      for (const FreeSide &side :
+           free_sides(shell_.discretization.cell_parts(), part))
         {
-          if (!cell->at_boundary(face))
-            continue;
-          const auto d = reference.template vertex<dim>(
-                           reference.face_to_cell_vertices(face, 1, 1)) -
-                         reference.template vertex<dim>(
-                           reference.face_to_cell_vertices(face, 0, 1));
-          points[face].reinit(cell);
+          const auto             &d = side.along;
+          std::vector<Point<dim>> on_side;
+          for (const auto &x : rule.get_points())
+            on_side.push_back(side.begin + x[0] * d);
+          CrackPoints points(shell_,
+                             Quadrature<dim>(on_side, rule.get_weights()));
+          points.reinit(part);
           for (unsigned int q = 0; q < rule.size(); ++q)
             {
-              const auto surface = points[face].surface(q);
+              const auto surface = points.surface(q);
               if (surface.position.distance(tip_.position) >= plateau_.outer)
                 continue;
               const CrackExtension extension(tip_, plateau_, surface);
@@ -270,24 +297,24 @@ namespace Nacre
               const Vector3 curvature = d[0] * d[0] * x.second[0] +
                                         d[1] * d[1] * x.second[1] +
                                         2. * d[0] * d[1] * x.second[2];
-              const double  length   = tangent.norm();
-              const Vector3 velocity = carried(x, extension);
-              const double  along    = extension.q * d / (d * d);
-              const double  slope    = d * (extension.gradient * d) / (d * d);
-              const double  weight   = points[face].weight(q);
+              const double  length = tangent.norm();
+              const Vector3 outward =
+                side.part_is_left *
+                cross_product_3d(tangent / length, points.frame(q).t0);
+              const double along  = extension.q * d / (d * d);
+              const double slope  = d * (extension.gradient * d) / (d * d);
+              const double weight = points.weight(q);
               function(
-                {points[face],
+                {points,
                  q,
-                 cell,
-                 face,
+                 side.edge,
                  tangent,
                  along,
                  (slope * length + along * (tangent * curvature) / length) *
                    weight,
                  weight,
-                 cross_product_3d(tangent / length,
-                                  points[face].strains().values().frame(q).t0) *
-                   velocity});
+                 outward * carried(x, extension),
+                 -(outward * tip_.axes[1])});
             }
         }
     });
@@ -304,27 +331,28 @@ namespace Nacre
         const Point<3>     x = lip.points.surface(lip.q).position;
         const Tensor<1, 3> d = x - tip_.position;
         const auto at = ", at " + coordinates_of(x) + "; choose smaller radii.";
-        AssertThrow(d * tip_.axes[0] < 0. &&
+        AssertThrow(d * tip_.axes[0] < tip_.closed &&
                       std::abs(d * tip_.axes[1]) < straight * plateau_.outer &&
                       std::abs(lip.across) < straight,
                     ExcMessage(where_ +
-                               "lies another edge of the shell, or "
-                               "the crack turns" +
+                               "lies another edge of the shell or another "
+                               "cut, or the crack turns" +
                                at));
-        const auto id      = lip.cell->face(lip.face)->boundary_id();
-        const auto support = supports.find(id);
+        length += lip.divergence;
+        if (!lip.edge)
+          return;
+        const auto support = supports.find(*lip.edge);
         AssertThrow(
           support == supports.end() || (support->second.displacements.empty() &&
                                         !support->second.rotation),
           ExcMessage(where_ + "a lip of the crack is supported" + at));
-        const auto moment = moments.find(id);
+        const auto moment = moments.find(*lip.edge);
         AssertThrow(moment == moments.end() || moment->second.is_zero(),
                     ExcMessage(where_ +
                                "a moment acts on a lip of the "
                                "crack, which these quantities don't "
                                "know" +
                                at));
-        length += lip.divergence;
       });
     });
     // Both lips begin where nothing moves and end at the tip, which moves by 1.
@@ -335,115 +363,140 @@ namespace Nacre
                                     "radii."));
   }
 
-  double
-  EnergyRelease::release_of_cell(CrackPoints         &points,
-                                 const cell_iterator &cell,
-                                 const WilliamsField *field,
-                                 const double         factor) const
+  void
+  EnergyRelease::add_part(CrackPoints                      &points,
+                          const CellPart                   &part,
+                          const std::vector<WilliamsField> &fields,
+                          std::vector<double>              &sums) const
   {
     const bool is_linear =
       shell_.model.kinematics.model == KinematicsModel::linear;
-    const double side =
-      side_of(tip_, shell_.discretization.geometry_nodes(cell));
-    points.reinit(cell);
-    double sum = 0.;
+    const double width = plateau_.outer - plateau_.inner;
+    points.reinit(part);
+    const double side = side_of(shell_.discretization, tip_, part, points);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const auto surface = points.surface(q);
         if (surface.position.distance(tip_.position) >= plateau_.outer)
           continue;
-        const auto          &frame = points.strains().values().frame(q);
+        const auto          &frame = points.frame(q);
         const CrackExtension extension(tip_, plateau_, surface);
-        auto                 u = points.displacement(q);
-        const Voigt<>        tying =
-          points.strains().membrane(q) - membrane_strain(frame, u, is_linear);
-        const auto load = surface_load(shell_, surface.position, frame, u);
-        if (field != nullptr)
+        const auto           u      = points.derivatives(q);
+        const auto           tying  = points.tying(q);
+        const double         weight = points.weight(q);
+        const auto load   = surface_load(shell_, surface.position, frame, u);
+        const auto change = [&](const VectorDerivatives &v) {
+          return energy_change(shell_.section(),
+                               is_linear,
+                               surface,
+                               extension,
+                               v,
+                               tying,
+                               width);
+        };
+        sums[0] -=
+          weight * (change(u) + load * carried(u, extension) * frame.j0);
+        for (unsigned int i = 0; i < fields.size(); ++i)
           {
-            const auto X = williams_derivatives(*field, tip_, side, surface);
-            sum -= points.weight(q) * factor * frame.j0 *
-                   held_work(shell_.model.section,
-                             tip_,
-                             surface,
-                             frame,
-                             X,
-                             u,
-                             extension);
-            add(u, factor, X);
+            const auto X = williams_derivatives(fields[i], tip_, side, surface);
+            const double held = held_work(shell_.model.section,
+                                          tip_,
+                                          surface,
+                                          frame,
+                                          X,
+                                          u,
+                                          extension);
+            auto         plus = u, minus = u;
+            sums[i + 1] -=
+              weight * (change(add(plus, 1., X)) - change(add(minus, -1., X)) +
+                        2. * (load * carried(X, extension) + held) * frame.j0);
           }
-        sum -=
-          points.weight(q) * (energy_change(shell_.section(),
-                                            is_linear,
-                                            surface,
-                                            extension,
-                                            u,
-                                            tying,
-                                            plateau_.outer - plateau_.inner) +
-                              load * carried(u, extension) * frame.j0);
       }
-    return sum;
   }
 
-  double
-  EnergyRelease::release(const WilliamsField *field, const double factor) const
+  void
+  EnergyRelease::add_lips(const std::vector<WilliamsField> &fields,
+                          std::vector<double>              &sums) const
   {
-    const auto    &discretization = shell_.discretization;
-    const auto    &forces         = shell_.model.loads.edge_forces();
-    const Instant &instant        = shell_.actions.loads;
-    CrackPoints    points(shell_, ring_quadrature(discretization));
-    double         sum = 0.;
-    run_on_all_ranks(discretization.communicator(), [&]() {
-      for_each_cell([&](const cell_iterator &cell) {
-        sum += release_of_cell(points, cell, field, factor);
-      });
-      for_each_lip_point([&](const LipPoint &lip) {
-        const auto force = forces.find(lip.cell->face(lip.face)->boundary_id());
-        if (force == forces.end())
-          return;
-        const SectionPoint x = lip.points.surface(lip.q).position;
-        Vector3            u = lip.points.strains().displacement(lip.q);
-        if (field != nullptr)
-          u += factor *
-               williams_value(*field,
-                              tip_,
-                              side_of(tip_,
-                                      discretization.geometry_nodes(lip.cell)),
-                              x);
-        // Along the lip's tangent; a difference of second order
-        const double step =
-          1e-4 * (plateau_.outer - plateau_.inner) / lip.tangent.norm();
-        const Vector3 slope = (force->second(x + step * lip.tangent, instant) -
-                               force->second(x - step * lip.tangent, instant)) /
-                              (2. * step);
-        sum += u * (force->second(x, instant) * lip.divergence +
-                    slope * lip.velocity * lip.tangent.norm() * lip.weight);
-      });
+    const auto    &forces  = shell_.model.loads.edge_forces();
+    const Instant &instant = shell_.actions.loads;
+    for_each_lip_point([&](const LipPoint &lip) {
+      const auto force = lip.edge ? forces.find(*lip.edge) : forces.end();
+      if (force == forces.end())
+        return;
+      const SectionPoint x = lip.points.surface(lip.q).position;
+      // Along the lip's tangent; a difference of second order
+      const double step =
+        1e-4 * (plateau_.outer - plateau_.inner) / lip.tangent.norm();
+      const Vector3 slope = (force->second(x + step * lip.tangent, instant) -
+                             force->second(x - step * lip.tangent, instant)) /
+                            (2. * step);
+      const Vector3 change =
+        force->second(x, instant) * lip.divergence +
+        slope * lip.velocity * lip.tangent.norm() * lip.weight;
+      sums[0] += lip.points.displacement(lip.q) * change;
+      for (unsigned int i = 0; i < fields.size(); ++i)
+        sums[i + 1] +=
+          2. * (williams_value(fields[i], tip_, lip.side, x) * change);
     });
-    return Utilities::MPI::sum(sum, discretization.communicator());
+  }
+
+  std::vector<double>
+  EnergyRelease::release(const std::vector<WilliamsField> &fields) const
+  {
+    const auto         &discretization = shell_.discretization;
+    CrackPoints         points(shell_, ring_quadrature(discretization));
+    std::vector<double> sums(fields.size() + 1, 0.);
+    run_on_all_ranks(discretization.communicator(), [&]() {
+      for_each_part([&](const CellPart &part) {
+        if (!part.is_cut())
+          return add_part(points, part, fields, sums);
+        CrackPoints of_part(shell_, ring_quadrature(discretization, part));
+        add_part(of_part, part, fields, sums);
+      });
+      add_lips(fields, sums);
+    });
+    Utilities::MPI::sum(sums, discretization.communicator(), sums);
+    return sums;
   }
 
   double
   EnergyRelease::rate() const
   {
-    return release(nullptr, 0.);
+    return release({})[0];
   }
 
   double
   EnergyRelease::intensity(const CrackMode mode) const
   {
-    AssertThrow(shell_.model.kinematics.model == KinematicsModel::linear,
-                ExcMessage(where_ + "stress intensity factors are those of "
-                                    "'Kinematics = linear'; the energy "
-                                    "release rate is known for all."));
-    const auto plate = plate_at_tip();
-    const auto field = unit_williams_field(mode, plate);
-    return (release(&field, 1.) - release(&field, -1.)) /
+    const auto plate = plate_or_throw();
+    return release({unit_williams_field(mode, plate)})[1] /
            (4. * unit_release_rate(mode, plate));
   }
 
-  ElasticPlate
-  EnergyRelease::plate_at_tip() const
+  EnergyRelease::All
+  EnergyRelease::rate_and_intensities(const ElasticPlate &plate) const
   {
+    const std::array<CrackMode, 4> modes = {{CrackMode::opening,
+                                             CrackMode::sliding,
+                                             CrackMode::bending,
+                                             CrackMode::twisting}};
+    std::vector<WilliamsField>     fields;
+    for (const CrackMode mode : modes)
+      fields.push_back(unit_williams_field(mode, plate));
+    const auto sums = release(fields);
+    All        all{sums[0], {}};
+    for (unsigned int i = 0; i < modes.size(); ++i)
+      all.intensities[i] =
+        sums[i + 1] / (4. * unit_release_rate(modes[i], plate));
+    return all;
+  }
+
+  std::optional<ElasticPlate>
+  EnergyRelease::plate() const
+  {
+    if (shell_.model.kinematics.model != KinematicsModel::linear)
+      return {};
     const auto &section = shell_.model.section;
     const auto  frame =
       make_surface_frame(tip_.axes[0], tip_.axes[1], std::array<Vector3, 3>());
@@ -456,13 +509,26 @@ namespace Nacre
     H[0][0] = H[1][1] = 1.;
     H[0][1] = H[1][0] = nu;
     H[2][2]           = 0.5 * (1. - nu);
-    AssertThrow(section.is_linear() && (C.membrane - A * H).norm() < 1e-8 * A &&
-                  (C.bending - A * h * h / 12. * H).norm() < 1e-8 * A * h * h &&
-                  C.coupling.norm() < 1e-8 * A * h,
+    if (section.is_linear() && (C.membrane - A * H).norm() < 1e-8 * A &&
+        (C.bending - A * h * h / 12. * H).norm() < 1e-8 * A * h * h &&
+        C.coupling.norm() < 1e-8 * A * h)
+      return ElasticPlate{A * (1. - nu * nu) / h, nu, h};
+    return {};
+  }
+
+  ElasticPlate
+  EnergyRelease::plate_or_throw() const
+  {
+    AssertThrow(shell_.model.kinematics.model == KinematicsModel::linear,
+                ExcMessage(where_ + "stress intensity factors are those of "
+                                    "'Kinematics = linear'; the energy "
+                                    "release rate is known for all."));
+    const auto plate = this->plate();
+    AssertThrow(plate.has_value(),
                 ExcMessage(where_ + "the section isn't homogeneous and "
                                     "isotropic, as stress intensity factors "
                                     "take it; the energy release rate is "
                                     "known for all sections."));
-    return {A * (1. - nu * nu) / h, nu, h};
+    return *plate;
   }
 } // namespace Nacre

@@ -4,7 +4,6 @@
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/postprocess/crack_quantities.h>
-#include <nacre/postprocess/crack_tip.h>
 #include <nacre/postprocess/cut_quantities.h>
 #include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
@@ -353,10 +352,10 @@ namespace Nacre
             quantity.goal.is_energy = (kind == "energy");
             return;
           }
-      if (const auto crack = parse_crack_quantity(phrase, constants))
+      if (const auto crack = parse_crack_quantity(phrase, cuts, constants))
         {
-          quantity.check = [crack](const Discretization &mesh) {
-            find_crack_tip(mesh, crack->tip, crack->where);
+          quantity.check = [=](const Discretization &mesh) {
+            find_tip_of(mesh, cuts, *crack);
           };
           quantity.evaluate = [crack](const SolvedShell &shell) {
             return evaluate_crack_quantity(shell, *crack);
@@ -475,8 +474,9 @@ namespace Nacre
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
       "the origin; in buckling load factor NUMBER, in vibration omega NUMBER "
       "(of time) and frequency NUMBER, omega/(2 pi), in both multiplicity "
-      "NUMBER, modes counted from 1; energy release rate|K_I|K_II|K_M|K_T of "
-      "tip (point) [radii INNER, OUTER], of a crack. Units: those of the "
+      "NUMBER, modes counted from 1; energy release rate|K_I|K_II|K_M|K_T|kink "
+      "angle of CUT begin|end [radii INNER, OUTER], or of tip (point) "
+      "for a slit of the mesh, the angle in degrees. Units: those of the "
       "quantity.");
     add_parameter("Balance about",
                   balance_text_,

@@ -15,12 +15,20 @@ namespace Nacre
   /** The end of a crack. */
   struct CrackTip
   {
-    /** On the undeformed mid-surface, in a region of it (length). */
+    /**
+     * On the undeformed mid-surface, in a region of it (length): where the
+     * lips end.
+     */
     SectionPoint position;
     /** e_1 tangent to the surface, ahead; e_2 = t0 x e_1; e_3 = t0. */
     std::array<Tensor<1, 3>, 3> axes;
     /** The longest edge that ends at the tip, or near to it (length). */
     double cell_size;
+    /**
+     * How far the end of a cut is ahead, which the mesh holds closed up to
+     * there (length).
+     */
+    double closed = 0.;
   };
 
   /**

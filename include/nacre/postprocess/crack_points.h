@@ -11,7 +11,8 @@ namespace Nacre
 {
   /**
    * The surface with three derivatives, and the displacement with two, at
-   * fixed points of one cell after the other.
+   * fixed points of one part after the other. All that an energy release rate
+   * takes of a displacement is here.
    */
   class CrackPoints
   {
@@ -20,12 +21,12 @@ namespace Nacre
     CrackPoints(const ShellState &state, const Quadrature<dim> &points);
 
     void
-    reinit(const DoFHandler<dim, spacedim>::active_cell_iterator &cell);
+    reinit(const CellPart &part);
 
-    const StrainValues &
-    strains() const
+    const SurfaceFrame<> &
+    frame(const unsigned int q) const
     {
-      return strains_;
+      return strains_.values().frame(q);
     }
 
     unsigned int
@@ -44,11 +45,31 @@ namespace Nacre
     SurfacePatch
     surface(const unsigned int q) const;
 
+    /** u (length). */
+    Tensor<1, spacedim>
+    displacement(const unsigned int q) const
+    {
+      return strains_.displacement(q);
+    }
+
+    /** u,a and u,ab. */
     VectorDerivatives
-    displacement(const unsigned int q) const;
+    derivatives(const unsigned int q) const;
+
+    /**
+     * What the tied or projected membrane strain has more than that of u,
+     * covariant (e11, e22, 2 e12) (length^2).
+     */
+    Voigt<>
+    tying(const unsigned int q) const
+    {
+      return strains_.membrane(q) -
+             membrane_strain(frame(q), derivatives(q), is_linear_);
+    }
 
   private:
     const ShellState     &state_;
+    const bool            is_linear_;
     const Quadrature<dim> quadrature_;
     StrainValues          strains_;
     /** Of the geometry's shape functions, [point][node]: 111, 112, 122, 222. */

@@ -14,13 +14,16 @@
 
 namespace Nacre
 {
+  struct Cuts;
+
   /**
-   * A quantity of the tip of a crack:
+   * A quantity of the tip of a crack, which is the begin or the end of a cut or
+   * a slit of the mesh:
    *
-   *   energy release rate of tip (point) [radii INNER, OUTER]
+   *   energy release rate of CUT begin|end|tip (point) [radii INNER, OUTER]
    *
    * (force), and K_I, K_II (force/length^(3/2)), K_M, K_T (force length^(1/2))
-   * likewise.
+   * and `kink angle` (degrees, of HoopStress) likewise.
    */
   struct CrackQuantity
   {
@@ -30,11 +33,21 @@ namespace Nacre
       opening,
       sliding,
       bending,
-      twisting
+      twisting,
+      kink_angle
     };
 
-    Kind     kind;
-    Point<3> tip = {};
+    /** An end of a cut, by the cut's number. */
+    struct CutEnd
+    {
+      unsigned int cut;
+      bool         at_end;
+    };
+
+    Kind kind;
+    /** None: a slit of the mesh, which ends in the point. */
+    std::optional<CutEnd> cut_end = {};
+    Point<3>              point   = {};
     /** None: two and six cells at the tip. */
     std::optional<CrackPlateau> plateau = {};
     /** The parameter, for messages. */
@@ -45,10 +58,21 @@ namespace Nacre
 
   /**
    * The quantity that a @p phrase begins with the name of, or none. Takes the
-   * words of it, and throws for those that are not understood.
+   * words of it, and throws for those that are not understood and for a cut
+   * that isn't among @p cuts.
    */
   std::optional<CrackQuantity>
-  parse_crack_quantity(QuantityPhrase &phrase, const Constants &constants);
+  parse_crack_quantity(QuantityPhrase  &phrase,
+                       const Cuts      &cuts,
+                       const Constants &constants);
+
+  /**
+   * The tip of the crack. Throws on all ranks if there is none; collective.
+   */
+  CrackTip
+  find_tip_of(const Discretization &discretization,
+              const Cuts           &cuts,
+              const CrackQuantity  &quantity);
 
   /** The value; see EnergyRelease for what throws. Collective. */
   double

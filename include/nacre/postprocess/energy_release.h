@@ -7,8 +7,11 @@
 #include <nacre/postprocess/crack_extension.h>
 #include <nacre/postprocess/shell_state.h>
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -32,8 +35,8 @@ namespace Nacre
   public:
     /**
      * Throws on all ranks if between the tip and the plateau's end there is
-     * anything but one smooth sheet with a straight crack: other edges, the
-     * crack's other end, creases, other regions, supports or forces at points,
+     * anything but one smooth sheet with a straight crack: other edges, cuts
+     * and tips, the crack's other end, creases, other regions, supports or forces at points,
      * supports or moments at the lips; and in dynamics, of modes and with a
      * foundation. Collective.
      */
@@ -58,16 +61,36 @@ namespace Nacre
     double
     intensity(const CrackMode mode) const;
 
-  private:
-    using cell_iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
+    struct All
+    {
+      double rate;
+      /** K_I, K_II, K_M, K_T. */
+      std::array<double, 4> intensities;
+    };
 
+    /** All at once, with the plate() at the tip. Collective. */
+    All
+    rate_and_intensities(const ElasticPlate &plate) const;
+
+    /**
+     * The plate at the tip; none unless the kinematics are linear and the
+     * section is homogeneous and isotropic.
+     */
+    std::optional<ElasticPlate>
+    plate() const;
+
+    /** The same, or throws. */
+    ElasticPlate
+    plate_or_throw() const;
+
+  private:
     /** A point of a lip with a weight. */
     struct LipPoint
     {
-      const CrackPoints  &points;
-      const unsigned int  q;
-      const cell_iterator cell;
-      const unsigned int  face;
+      const CrackPoints &points;
+      const unsigned int q;
+      /** Of the surface's boundary; none: a lip of a cut. */
+      const std::optional<types::boundary_id> edge;
       /** The tangent x,t (length) along the lip. */
       Tensor<1, 3> tangent;
       /** q^t, the velocity along it. */
@@ -77,14 +100,18 @@ namespace Nacre
       double weight;
       /** The velocity's component out of the lip. */
       double across;
+      /** Positive on the side of e_2. */
+      double side;
     };
 
-    /** Call @p function for this rank's cells that may be near to the tip. */
+    /**
+     * Call @p function for this rank's cells that may be near to the tip, of
+     * divided ones for all parts.
+     */
     void
-    for_each_cell(
-      const std::function<void(const cell_iterator &)> &function) const;
+    for_each_part(const std::function<void(const CellPart &)> &function) const;
 
-    /** For the boundary's points that move. */
+    /** For the free sides' points that move. */
     void
     for_each_lip_point(
       const std::function<void(const LipPoint &)> &function) const;
@@ -93,24 +120,32 @@ namespace Nacre
     check_model() const;
 
     void
+    check_cuts() const;
+
+    void
     check_lips() const;
 
     void
     check_inside() const;
 
-    /** The displacement plus @p factor times @p field; null: none. */
-    double
-    release(const WilliamsField *field, const double factor) const;
+    /**
+     * G of the displacement u, and behind it G(u + X) - G(u - X) of each of the
+     * @p fields X. Collective.
+     */
+    std::vector<double>
+    release(const std::vector<WilliamsField> &fields) const;
 
-    double
-    release_of_cell(CrackPoints         &points,
-                    const cell_iterator &cell,
-                    const WilliamsField *field,
-                    const double         factor) const;
+    /** Add what a part releases. */
+    void
+    add_part(CrackPoints                      &points,
+             const CellPart                   &part,
+             const std::vector<WilliamsField> &fields,
+             std::vector<double>              &sums) const;
 
-    /** Of the section at the tip. */
-    ElasticPlate
-    plate_at_tip() const;
+    /** Add what the forces at lips release. */
+    void
+    add_lips(const std::vector<WilliamsField> &fields,
+             std::vector<double>              &sums) const;
 
     const SolvedShell &shell_;
     const CrackTip     tip_;
