@@ -3,6 +3,7 @@
 
 #include <nacre/base/log.h>
 #include <nacre/base/text.h>
+#include <nacre/postprocess/tip_release.h>
 #include <nacre/simulation/crack_growth.h>
 
 #include <algorithm>
@@ -84,9 +85,33 @@ namespace Nacre
                        const CutTrace::Tip &end,
                        GrowingTip          &tip) const
   {
-    (void)shell;
-    (void)end;
-    (void)tip;
+    const Growth     &growth = problem_.growth;
+    const std::string where  = "Growth/Tips, '" + tip.name + "'";
+    const CrackTip    crack  = make_crack_tip(shell.discretization, end, where);
+    AssertThrow(tip.step > 1.5 * crack.closed,
+                ExcMessage("Growth/Step: at the tip '" + tip.name +
+                           "' a step of " + Text::number(tip.step) +
+                           " is too short to tell G: the crack is closed over "
+                           "the last " +
+                           Text::number(crack.closed) +
+                           " of the cut, within a cell. Choose a longer step, "
+                           "or a finer mesh."));
+    // The kink of the last step must lie outside.
+    const double     outer = 0.95 * (tip.step - crack.closed);
+    const TipRelease release =
+      compute_tip_release(shell, crack, CrackPlateau{outer / 3., outer}, where);
+    AssertThrow(release.has_intensities ||
+                  growth.direction != GrowthDirection::hoop_stress,
+                ExcMessage("Growth/Direction: at the tip '" + tip.name +
+                           "' the section isn't homogeneous and isotropic, as "
+                           "'hoop stress' needs it; choose 'straight' or a "
+                           "vector 'dx, dy, dz'."));
+    tip.closed          = crack.closed;
+    tip.rate            = release.rate;
+    tip.has_intensities = release.has_intensities;
+    tip.intensities     = release.intensities;
+    tip.drive           = release.rate / (growth.toughness * release.thickness);
+    tip.angle           = release.hoop_stress.angle;
   }
 
   double
@@ -95,8 +120,9 @@ namespace Nacre
                             const GrowingTip     &tip,
                             const double          time) const
   {
-    (void)tip;
     const Growth &growth = problem_.growth;
+    if (growth.direction == GrowthDirection::hoop_stress)
+      return tip.angle;
     if (growth.direction == GrowthDirection::straight)
       return 0.;
     const auto   axes  = tip_axes(discretization, end);

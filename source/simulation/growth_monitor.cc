@@ -21,20 +21,6 @@ namespace Nacre
     const std::array<std::string, 4> intensity_names{
       {"K_I", "K_II", "K_M", "K_T"}};
 
-    /** Whether the tips' G is known; the intensities. */
-    bool
-    has_rates(const ShellProblem &problem)
-    {
-      return !problem.growth.is_prescribed();
-    }
-
-    bool
-    has_intensities(const ShellProblem &problem)
-    {
-      return has_rates(problem) &&
-             problem.model.kinematics.model == KinematicsModel::linear;
-    }
-
     /** The numbers of the cuts that grow. */
     std::set<unsigned int>
     growing_cuts(const ShellProblem &problem)
@@ -69,6 +55,7 @@ namespace Nacre
   std::string
   GrowthMonitor::header(const CrackGrowth &growth) const
   {
+    const bool         has_rates = !problem_.growth.is_prescribed();
     std::ostringstream text;
     text << "step,time,load_factor";
     for (const unsigned int cut : growing_cuts(problem_))
@@ -79,9 +66,9 @@ namespace Nacre
         std::replace(name.begin(), name.end(), ' ', '_');
         for (const auto *const what : {"x", "y", "z"})
           text << ',' << what << '_' << name;
-        if (has_rates(problem_))
-          text << ",G_" << name;
-        if (has_intensities(problem_))
+        if (has_rates)
+          text << ",closed_" << name << ",G_" << name;
+        if (tip.has_intensities)
           for (const auto &what : intensity_names)
             text << ',' << what << '_' << name;
         text << ",angle_" << name;
@@ -97,6 +84,7 @@ namespace Nacre
                          const double       time,
                          const SolvedShell &shell)
   {
+    const bool         has_rates = !problem_.growth.is_prescribed();
     std::ostringstream row, line;
     row << std::setprecision(12) << growth.n_steps() << ',' << time << ','
         << shell.instant.factor;
@@ -113,11 +101,11 @@ namespace Nacre
       {
         for (unsigned int c = 0; c < spacedim; ++c)
           row << ',' << tip.position[c];
-        if (has_rates(problem_))
-          row << ',' << tip.rate;
-        if (has_rates(problem_) && tip.is_alive)
+        if (has_rates)
+          row << ',' << tip.closed << ',' << tip.rate;
+        if (has_rates && tip.is_alive)
           line << ", G of " << tip.name << " = " << tip.rate;
-        if (has_intensities(problem_))
+        if (tip.has_intensities)
           for (const double intensity : tip.intensities)
             row << ',' << intensity;
         row << ',' << tip.angle * 180. / numbers::PI;

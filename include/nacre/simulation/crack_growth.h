@@ -33,7 +33,10 @@ namespace Nacre
     double step = 0.;
     /** G (force), where the criterion asks for it. */
     double rate = 0.;
-    /** K_I, K_II, K_M, K_T, where the direction asks for them. */
+    /** CrackTip::closed (length). */
+    double closed = 0.;
+    /** TipRelease::intensities, if they are known. */
+    bool                  has_intensities = false;
     std::array<double, 4> intensities{{0., 0., 0., 0.}};
     /** G/(G_c h) (1). */
     double drive = 0.;
