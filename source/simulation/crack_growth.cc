@@ -136,12 +136,11 @@ namespace Nacre
   }
 
   bool
-  CrackGrowth::has_ended() const
+  CrackGrowth::has_tips() const
   {
-    return n_steps_ >= problem_.growth.maximum_steps ||
-           std::none_of(tips_.begin(), tips_.end(), [](const auto &tip) {
-             return tip.is_alive;
-           });
+    return std::any_of(tips_.begin(), tips_.end(), [](const auto &tip) {
+      return tip.is_alive;
+    });
   }
 
   double

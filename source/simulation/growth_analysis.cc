@@ -154,7 +154,7 @@ namespace Nacre
     if (!growth_.has_ended())
       {
         growth_.advance(discretization, growth_.n_steps(), true);
-        if (!growth_.has_ended())
+        if (growth_.has_tips())
           return shell.release_mesh();
         log_.progress() << "growth ends: no tip is left inside the surface"
                         << std::endl;

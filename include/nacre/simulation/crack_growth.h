@@ -86,9 +86,16 @@ namespace Nacre
       return n_steps_;
     }
 
-    /** Whether no tip can advance any more. */
+    /** Whether there are tips that may advance. */
     bool
-    has_ended() const;
+    has_tips() const;
+
+    /** Whether none is left, or all steps are taken. */
+    bool
+    has_ended() const
+    {
+      return !has_tips() || n_steps_ >= problem_.growth.maximum_steps;
+    }
 
     /** The largest G/(G_c h) that observe() has found (1). */
     double
