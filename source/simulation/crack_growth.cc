@@ -8,10 +8,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Nacre
 {
+  namespace
+  {
+    /** The ring in which G is taken is that large if there is room: cells. */
+    constexpr double widest_ring = 6.;
+    /** How far a crack may leave its last direction there, of the radius. */
+    constexpr double straight_ring = 0.018;
+
+    /**
+     * How far from a tip (length) nothing but its own straight crack lies: no
+     * edge of the surface, no other cut, tip or kink. Collective.
+     * @param least a radius within which the crack counts as straight if it
+     *   leaves its direction by no more than snapping does
+     */
+    double
+    find_room(const Discretization &discretization,
+              const CrackTip       &crack,
+              const unsigned int    cut,
+              const double          least)
+    {
+      double     room = std::numeric_limits<double>::max();
+      const auto take = [&](const Point<spacedim> &x) {
+        room = std::min(room, x.distance(crack.position));
+      };
+      for (const CellPart &part : discretization.owned_parts())
+        for (const auto face : part.cell->face_indices())
+          if (part.cell->at_boundary(face))
+            {
+              const auto nodes = discretization.node_positions(part);
+              for (const unsigned int a : discretization.face_nodes(face))
+                take(nodes[a]);
+            }
+      for (const auto &line : discretization.cut_lines())
+        for (const auto &x : line.points)
+          {
+            const auto   d   = x - crack.position;
+            const double off = std::abs(d * crack.axes[1]);
+            if (line.cut != cut ||
+                off > straight_ring * std::max(d.norm(), least) ||
+                d * crack.axes[0] > (1. + 1e-6) * crack.closed + 1e-6 * least)
+              take(x);
+          }
+      for (const auto &other : discretization.tips())
+        if (other.position.distance(crack.position) >
+            crack.closed + 0.1 * crack.cell_size)
+          take(other.position);
+      return Utilities::MPI::min(room, discretization.communicator());
+    }
+  } // namespace
+
   CrackGrowth::CrackGrowth(ShellProblem &problem, Log &log)
     : problem_(problem)
     , log_(log)
@@ -96,8 +146,13 @@ namespace Nacre
                            Text::number(crack.closed) +
                            " of the cut, within a cell. Choose a longer step, "
                            "or a finer mesh."));
-    // The kink of the last step must lie outside.
-    const double     outer = 0.95 * (tip.step - crack.closed);
+    // The kink of the last step lies outside.
+    const double least = 0.95 * (tip.step - crack.closed);
+    const double room =
+      find_room(shell.discretization, crack, tip.end.cut, least);
+    const double     outer = std::min(0.9 * room,
+                                  std::max(least,
+                                           widest_ring * crack.cell_size));
     const TipRelease release =
       compute_tip_release(shell, crack, CrackPlateau{outer / 3., outer}, where);
     AssertThrow(release.has_intensities ||
