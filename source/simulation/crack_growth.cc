@@ -57,7 +57,10 @@ namespace Nacre
       for (const auto &other : discretization.tips())
         if (other.position.distance(crack.position) >
             crack.closed + 0.1 * crack.cell_size)
-          take(other.position);
+          // The cut may be closed over the last cell.
+          room = std::min(room,
+                          other.position.distance(crack.position) -
+                            1.5 * crack.cell_size);
       return Utilities::MPI::min(room, discretization.communicator());
     }
   } // namespace
