@@ -23,6 +23,8 @@ namespace Nacre
 
     /** How far lips may leave the plane y = 0, in shares of the distance. */
     constexpr double straight = 0.02;
+    /** Their slope: crossings with edges that snap turn a piece by that. */
+    constexpr double crooked = 0.3;
     /** Cosine of the angle of two normals from which an edge is a crease. */
     constexpr double crack_crease = 0.94;
     /** The same of a normal to that at the tip. */
@@ -335,7 +337,7 @@ namespace Nacre
         const auto at = ", at " + coordinates_of(x) + "; choose smaller radii.";
         AssertThrow(d * tip_.axes[0] < tip_.closed &&
                       std::abs(d * tip_.axes[1]) < straight * plateau_.outer &&
-                      std::abs(lip.across) < straight,
+                      std::abs(lip.across) < crooked,
                     ExcMessage(where_ +
                                "lies another edge of the shell or another "
                                "cut, or the crack turns" +

@@ -108,6 +108,10 @@ namespace Nacre
     AssertThrow(tip_size_ == 0. || !problem.model.cuts.is_empty(),
                 ExcMessage(section + "Cells at tips: there are no cuts "
                                      "(Cuts/Cuts); set it to 0."));
+    AssertThrow(!problem.growth.is_on(),
+                ExcMessage(section +
+                           "Cycles: cuts that grow (Growth/Tips) keep their "
+                           "mesh; set it to 0."));
     check_path(problem.path);
     AssertThrow(!problem.model.section.has_initial_strain(),
                 ExcMessage(section +

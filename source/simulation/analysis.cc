@@ -3,6 +3,7 @@
 
 #include <nacre/simulation/analysis.h>
 #include <nacre/simulation/buckling_analysis.h>
+#include <nacre/simulation/growth_analysis.h>
 #include <nacre/simulation/linear_analysis.h>
 #include <nacre/simulation/path_run.h>
 #include <nacre/simulation/vibration_analysis.h>
@@ -11,10 +12,12 @@ namespace Nacre
 {
   std::unique_ptr<Analysis>
   make_analysis(const MPI_Comm            communicator,
-                const ShellProblem       &problem,
+                ShellProblem             &problem,
                 const AdaptiveRefinement &adaptive,
                 Log                      &log)
   {
+    if (problem.path.is_linear() && problem.growth.is_on())
+      return std::make_unique<GrowthAnalysis>(communicator, problem, log);
     if (problem.path.is_linear())
       return std::make_unique<LinearAnalysis>(communicator,
                                               problem,

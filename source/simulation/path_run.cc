@@ -5,13 +5,14 @@
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/simulation/adaptive_refinement.h>
-#include <nacre/simulation/discrete_shell.h>
 #include <nacre/simulation/displacement_transfer.h>
+#include <nacre/simulation/growth_monitor.h>
 #include <nacre/simulation/path_monitor.h>
 #include <nacre/simulation/path_quantities.h>
 #include <nacre/simulation/path_run.h>
 #include <nacre/simulation/path_start.h>
 #include <nacre/simulation/run_warnings.h>
+#include <nacre/simulation/stepped_shell.h>
 
 #include <cmath>
 #include <filesystem>
@@ -63,117 +64,15 @@ namespace Nacre
     }
   } // namespace
 
-  /** A shell, its system of equations and the steps that solve it. */
-  struct PathRun::SteppedShell
-  {
-    /**
-     * Everything that is wrong without a step is found here.
-     * @param mesh null: that of the problem
-     */
-    SteppedShell(const MPI_Comm                       communicator,
-                 const ShellProblem                  &problem,
-                 const QuantitiesOfInterest          &quantities,
-                 std::unique_ptr<DiscreteShell::Mesh> mesh,
-                 Log                                 &log)
-      : shell(communicator, problem, std::move(mesh), 1, log)
-      , system(shell.discretization(),
-               shell.assembly(),
-               problem.model,
-               shell.solver())
-      , path(problem.path, system, problem.model.section)
-    {
-      check_path_quantities(problem.path, quantities);
-      if (problem.path.controls_displacement())
-        path.curve()->control(controlled_quantity(problem.path, quantities)
-                                ->goal.load(shell.discretization()));
-    }
-
-    DiscreteShell shell;
-    ShellSystem   system;
-    PathAnalysis  path;
-  };
-
-  /** A state of the path with its forces, as the quantities see it. */
-  class PathRun::SolvedState
-  {
-  public:
-    /** Sets the time of the system. Collective. */
-    SolvedState(const PathState &state, SteppedShell &stepped)
-      : SolvedState(state, stepped.shell, stepped.path, stepped.system)
-    {}
-
-    const SolvedShell &
-    shell() const
-    {
-      return shell_;
-    }
-
-  private:
-    SolvedState(const PathState     &state,
-                const DiscreteShell &shell,
-                const PathAnalysis  &path,
-                ShellSystem         &system)
-      : displacement_(ghosted(state.time, state.motion.u, system))
-      , velocity_(system.with_ghosts(state.motion.v))
-      , residual_(shell.owned_vector())
-      , shell_{{shell.discretization(),
-                shell.problem().model,
-                displacement_,
-                system.actions().loads},
-               shell.assembly(),
-               system.actions(),
-               shell.conditions(),
-               residual_,
-               forces(state, shell, path, system),
-               path.dynamic_mass(),
-               &velocity_,
-               state.balance}
-    {}
-
-    using Vector = TrilinosWrappers::MPI::Vector;
-
-    static Vector
-    ghosted(const double time, const Vector &u, ShellSystem &system)
-    {
-      system.set_time(time);
-      return system.with_ghosts(u);
-    }
-
-    /** Fills residual_: inertia is part of the reactions. */
-    Energies
-    forces(const PathState     &state,
-           const DiscreteShell &shell,
-           const PathAnalysis  &path,
-           const ShellSystem   &system)
-    {
-      const MassTerms *const mass     = path.dynamic_mass();
-      const Assembly        &assembly = shell.assembly();
-      if (mass == nullptr)
-        return assembly.residual(displacement_, system.actions(), residual_);
-      Vector w(state.motion.a);
-      w.add(shell.problem().path.mass_damping, state.motion.v);
-      const Vector  ghosted_w = system.with_ghosts(w);
-      const Inertia inertia{*mass, ghosted_w, 0.};
-      return assembly.residual(displacement_,
-                               system.actions(),
-                               residual_,
-                               &inertia);
-    }
-
-    const Vector      displacement_;
-    const Vector      velocity_;
-    Vector            residual_;
-    const SolvedShell shell_;
-  };
-
   PathRun::PathRun(const MPI_Comm            communicator,
-                   const ShellProblem       &problem,
+                   ShellProblem             &problem,
                    const AdaptiveRefinement &adaptive,
                    Log                      &log)
     : communicator_(communicator)
     , problem_(problem)
     , adaptive_(adaptive)
     , log_(log)
+    , growth_(problem, log)
   {
     if (has_linear_kinematics(problem))
       warn_of_linear_path(log);
@@ -188,6 +87,10 @@ namespace Nacre
                 ExcMessage("--restart: a path with 'Adaptive "
                            "refinement/Cycles' above 0 has no checkpoints, "
                            "since they don't hold the mesh; begin anew."));
+    AssertThrow(!restart || !growth_.is_on(),
+                ExcMessage("--restart: a path whose cuts grow (Growth/Tips) "
+                           "has no checkpoints, since they don't hold the "
+                           "cuts; begin anew."));
   }
 
   void
@@ -200,6 +103,7 @@ namespace Nacre
                                nullptr,
                                log_);
     const DiscreteShell &shell = stepped.shell;
+    growth_.check(shell.discretization());
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
     const std::string base = own_options(recorder).file("");
@@ -224,6 +128,7 @@ namespace Nacre
     SolveRecord record;
     record.setup = timer.lap();
     record.eta   = stepped_->shell.assembly().penalty().eta();
+    growth_.check(stepped_->shell.discretization());
     recorder.check_quantities(stepped_->shell.discretization());
 
     timer.lap();
@@ -258,8 +163,14 @@ namespace Nacre
                         problem_.path,
                         recorder.quantities(),
                         checkpoint,
-                        !adaptive_.is_on(),
+                        !adaptive_.is_on() && !growth_.is_on(),
                         log_);
+    if (growth_.is_on())
+      growth_monitor_ = std::make_unique<GrowthMonitor>(communicator_,
+                                                        options,
+                                                        problem_,
+                                                        recorder.quantities(),
+                                                        log_);
     // The same on all ranks.
     const bool exists = std::filesystem::exists(options.file(".checkpoint"));
     const bool goes_on =
@@ -272,6 +183,8 @@ namespace Nacre
     const SolvedState last(end.state, *stepped_);
     monitor.finish(end.state, last.shell());
     recorder.add_summary(monitor.summary());
+    if (growth_.is_on())
+      recorder.add_summary(growth_monitor_->summary());
     return end;
   }
 
@@ -397,7 +310,8 @@ namespace Nacre
                   const Recorder &recorder)
   {
     const auto &quantities = recorder.quantities();
-    bool        pauses     = false;
+    bool        refines    = false;
+    bool        grows      = false;
 
     PathCallbacks callbacks;
     callbacks.observe = [&](const PathState &step) {
@@ -412,20 +326,31 @@ namespace Nacre
       log_.progress() << text << std::endl;
     };
     callbacks.pauses = [&](const PathState &step) {
-      pauses =
+      refines =
         n_refinements_ < adaptive_.n_cycles() && adaptive_.is_due(step.step);
-      return pauses;
+      grows = false;
+      if (growth_.is_on() && !growth_.has_ended())
+        {
+          observe_growth(step);
+          grows = growth_.is_due(step.time);
+        }
+      return refines || grows;
     };
     callbacks.ends = [&](const PathState &step) {
       return ends(step, quantities);
     };
     while (true)
       {
-        pauses                    = false;
-        const std::string failure = stepped_->path.run(state, callbacks);
-        if (!pauses)
+        refines = grows     = false;
+        std::string failure = stepped_->path.run(state, callbacks);
+        if (!refines && !grows)
           return failure;
-        refine(quantities, state);
+        if (refines)
+          refine(quantities, state);
+        if (grows)
+          failure = grow(quantities, state);
+        if (!failure.empty())
+          return failure;
         callbacks.observe(state);
         if (callbacks.ends(state))
           return "";

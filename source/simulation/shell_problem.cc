@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/forms/kinematics.h>
+#include <nacre/simulation/crack_growth.h>
 #include <nacre/simulation/shell_problem.h>
 
 #include <utility>
@@ -181,11 +182,17 @@ namespace Nacre
                                 constants);
     if (!problem.path.is_linear())
       model.load_factor = std::move(load_factor);
+    problem.growth =
+      growth_.make(constants,
+                   model.cuts,
+                   !problem.path.is_linear(),
+                   model.kinematics.model == KinematicsModel::linear);
     problem.n_refinements = shell_case.n_refinements;
     problem.solver        = solver_.values;
     problem.assembly      = discretization_.assembly();
     problem.constants     = std::move(constants);
     check(problem);
+    check_growth(problem);
     return problem;
   }
 

@@ -44,10 +44,13 @@ namespace Nacre
     run(Recorder &recorder, const bool restart) = 0;
   };
 
-  /** @p problem and @p adaptive must live as long as the analysis. */
+  /**
+   * @p problem and @p adaptive must live as long as the analysis, which may
+   * lengthen the cuts of the problem.
+   */
   std::unique_ptr<Analysis>
   make_analysis(const MPI_Comm            communicator,
-                const ShellProblem       &problem,
+                ShellProblem             &problem,
                 const AdaptiveRefinement &adaptive,
                 Log                      &log);
 } // namespace Nacre

@@ -7,6 +7,7 @@
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/simulation/analysis.h>
 #include <nacre/simulation/checkpoint.h>
+#include <nacre/simulation/crack_growth.h>
 
 #include <map>
 #include <memory>
@@ -18,12 +19,14 @@ namespace Nacre
 {
   class AdaptiveRefinement;
   class DiscreteShell;
+  class GrowthMonitor;
   class PathMonitor;
+  struct SteppedShell;
 
   /**
    * A load path or a motion, with files of its own: a row for each step,
    * fields, checkpoints. A static path, or one whose t is unknown, may refine
-   * its mesh on the way, and then has no checkpoints.
+   * its mesh on the way, and cuts may grow; it then has no checkpoints.
    *
    * A curve of equilibria may have several branches, which are paths with files
    * of their own, followed one after the other. The study's table holds the
@@ -32,9 +35,9 @@ namespace Nacre
   class PathRun : public Analysis
   {
   public:
-    /** @p problem and @p adaptive must live as long. */
+    /** @p problem, whose cuts may grow, and @p adaptive must live as long. */
     PathRun(const MPI_Comm            communicator,
-            const ShellProblem       &problem,
+            ShellProblem             &problem,
             const AdaptiveRefinement &adaptive,
             Log                      &log);
 
@@ -59,9 +62,6 @@ namespace Nacre
     run(Recorder &recorder, const bool restart) override;
 
   private:
-    class SolvedState;
-    struct SteppedShell;
-
     /** Refuse a restart of what has no checkpoints. */
     void
     check_restart(const bool restart) const;
@@ -119,6 +119,22 @@ namespace Nacre
     void
     refine(const QuantitiesOfInterest &quantities, PathState &state);
 
+    /** The state as growth sees it: the tips, a row in its table. */
+    void
+    observe_growth(const PathState &state);
+
+    /**
+     * Let the cuts grow at the @p state for as long as tips advance, each step
+     * with a new equilibrium at the same time. Returns "", or why the last
+     * step has none: @p state is then the one before it.
+     */
+    std::string
+    grow(const QuantitiesOfInterest &quantities, PathState &state);
+
+    /** A step of that. */
+    std::string
+    grow_by_a_step(const QuantitiesOfInterest &quantities, PathState &state);
+
     /** The row of the last @p state. */
     void
     add_row(const PathState &state, SolveRecord &record, Recorder &recorder);
@@ -142,6 +158,9 @@ namespace Nacre
     const ShellProblem       &problem_;
     const AdaptiveRefinement &adaptive_;
     Log                      &log_;
+    CrackGrowth               growth_;
+    /** Where cuts grow. */
+    std::unique_ptr<GrowthMonitor> growth_monitor_;
     /** On the mesh of now. */
     std::unique_ptr<SteppedShell> stepped_;
     /** States of the primary path's bifurcation points, by their numbers. */

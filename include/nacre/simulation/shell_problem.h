@@ -7,6 +7,7 @@
 #include <nacre/analysis/mode_parameters.h>
 #include <nacre/analysis/path_parameters.h>
 #include <nacre/mechanics/section_law.h>
+#include <nacre/problem/growth.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/simulation/chosen_solver.h>
 
@@ -46,7 +47,9 @@ namespace Nacre
     PathParameters   path          = {};
     ModeOptions      modes         = {};
     SolverParameters solver        = {};
-    AssemblyMethod   assembly      = AssemblyMethod::fast;
+    /** Of the model's cuts, which an analysis lengthens. */
+    Growth         growth   = {};
+    AssemblyMethod assembly = AssemblyMethod::fast;
     /** Constants of the file and of the section, for more expressions. */
     Constants constants = {};
   };
@@ -150,6 +153,7 @@ namespace Nacre
     ResultAxesParameters        result_axes_;
     FoundationParameters        foundation_;
     CutParameters               cuts_;
+    GrowthParameters            growth_;
   };
 } // namespace Nacre
 

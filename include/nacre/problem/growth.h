@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_problem_growth_h
+#define nacre_problem_growth_h
+
+#include <nacre/base/expression.h>
+#include <nacre/base/selection.h>
+#include <nacre/problem/cuts.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace Nacre
+{
+  /** When a tip advances. */
+  enum class GrowthCriterion
+  {
+    /** When its energy release rate reaches the toughness times h. */
+    energy_release_rate,
+    /** As the user says: a knife. */
+    prescribed
+  };
+
+  const Selection<GrowthCriterion> &selection(GrowthCriterion);
+
+  /** Where a tip turns. */
+  enum class GrowthDirection
+  {
+    /** To the largest hoop stress, (C.10) of doc/growth.md. */
+    hoop_stress,
+    straight,
+    /** Along a vector. */
+    expression
+  };
+
+  /** How cuts grow. */
+  struct Growth
+  {
+    /** An end of a cut. */
+    struct Tip
+    {
+      unsigned int cut;
+      /** Whether it is the last point of the cut, not the first. */
+      bool at_end;
+    };
+
+    /** That may grow; none: the cuts stay as they are. */
+    std::vector<Tip> tips = {};
+
+    GrowthCriterion criterion = GrowthCriterion::energy_release_rate;
+    /** G_c, energy per area of the crack (force/length). */
+    double toughness = 0.;
+    /** Tips whose G is lower than the largest by this part grow, too. */
+    double tolerance = 0.1;
+
+    GrowthDirection direction = GrowthDirection::straight;
+    /** The direction in space, if it is an expression (1). */
+    VectorExpression along = {};
+
+    /** How far a tip advances at once: cells at the tip, or a length. */
+    double step             = 3.;
+    bool   step_is_in_cells = true;
+    /** Length by which each tip has advanced at t, if that is prescribed. */
+    Expression length = {};
+
+    unsigned int maximum_steps = 20;
+
+    bool
+    is_on() const
+    {
+      return !tips.empty();
+    }
+
+    bool
+    is_prescribed() const
+    {
+      return criterion == GrowthCriterion::prescribed;
+    }
+  };
+
+  /** "tear end" */
+  std::string
+  in_words(const Growth::Tip &tip, const Cuts &cuts);
+
+  /** The section Growth of a parameter file. */
+  class GrowthParameters : public ParameterAcceptor
+  {
+  public:
+    GrowthParameters();
+
+    /**
+     * Throws an ExcMessage for tips that no cut has, and for parameters that
+     * don't go together.
+     * @param is_path whether the analysis has a time
+     * @param has_intensities whether stress intensities are known
+     */
+    Growth
+    make(const Constants &constants,
+         const Cuts      &cuts,
+         const bool       is_path,
+         const bool       has_intensities) const;
+
+  private:
+    void
+    read_tips(const Cuts &cuts, Growth &growth) const;
+
+    void
+    read_criterion(const Constants &constants,
+                   const bool       is_path,
+                   Growth          &growth) const;
+
+    void
+    read_direction(const Constants &constants,
+                   const bool       has_intensities,
+                   Growth          &growth) const;
+
+    void
+    read_step(const Constants &constants, Growth &growth) const;
+
+    std::string     tips_text_      = "none";
+    GrowthCriterion criterion_      = Growth().criterion;
+    std::string     toughness_text_ = "";
+    double          tolerance_      = Growth().tolerance;
+    std::string     direction_text_ = "default";
+    std::string     step_text_      = "3 cells";
+    std::string     length_text_    = "";
+    unsigned int    maximum_steps_  = Growth().maximum_steps;
+  };
+} // namespace Nacre
+
+#endif

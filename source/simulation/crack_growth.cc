@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/log.h>
+#include <nacre/base/text.h>
+#include <nacre/postprocess/tip_release.h>
+#include <nacre/simulation/crack_growth.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** The ring in which G is taken is that large if there is room: cells. */
+    constexpr double widest_ring = 6.;
+    /** How far a crack may leave its last direction there, of the radius. */
+    constexpr double straight_ring = 0.018;
+
+    /**
+     * How far from a tip (length) nothing but its own straight crack lies: no
+     * edge of the surface, no other cut, tip or kink. Collective.
+     * @param least a radius within which the crack counts as straight if it
+     *   leaves its direction by no more than snapping does
+     */
+    double
+    find_room(const Discretization &discretization,
+              const CrackTip       &crack,
+              const unsigned int    cut,
+              const double          least)
+    {
+      double     room = std::numeric_limits<double>::max();
+      const auto take = [&](const Point<spacedim> &x) {
+        room = std::min(room, x.distance(crack.position));
+      };
+      for (const CellPart &part : discretization.owned_parts())
+        for (const auto face : part.cell->face_indices())
+          if (part.cell->at_boundary(face))
+            {
+              const auto nodes = discretization.node_positions(part);
+              for (const unsigned int a : discretization.face_nodes(face))
+                take(nodes[a]);
+            }
+      for (const auto &line : discretization.cut_lines())
+        for (const auto &x : line.points)
+          {
+            const auto   d   = x - crack.position;
+            const double off = std::abs(d * crack.axes[1]);
+            if (line.cut != cut ||
+                off > straight_ring * std::max(d.norm(), least) ||
+                d * crack.axes[0] > (1. + 1e-6) * crack.closed + 1e-6 * least)
+              take(x);
+          }
+      for (const auto &other : discretization.tips())
+        if (other.position.distance(crack.position) >
+            crack.closed + 0.1 * crack.cell_size)
+          // The cut may be closed over the last cell.
+          room = std::min(room,
+                          other.position.distance(crack.position) -
+                            1.5 * crack.cell_size);
+      return Utilities::MPI::min(room, discretization.communicator());
+    }
+  } // namespace
+
+  CrackGrowth::CrackGrowth(ShellProblem &problem, Log &log)
+    : problem_(problem)
+    , log_(log)
+  {
+    for (const Growth::Tip &end : problem.growth.tips)
+      {
+        GrowingTip tip;
+        tip.name = in_words(end, problem.model.cuts);
+        tip.end  = end;
+        tips_.push_back(tip);
+      }
+  }
+
+  CutTrace::Tip
+  CrackGrowth::find(const Discretization &discretization,
+                    const GrowingTip     &tip) const
+  {
+    for (const CutTrace::Tip &end : discretization.tips())
+      if (end.cut == tip.end.cut && end.at_end == tip.end.at_end)
+        return end;
+    AssertThrow(false,
+                ExcMessage("Growth/Tips, '" + tip.name +
+                           "': this end of the cut lies on or beyond an edge "
+                           "of the surface and is no tip; only ends inside "
+                           "of the surface grow."));
+    return {};
+  }
+
+  void
+  CrackGrowth::check(const Discretization &discretization) const
+  {
+    for (const GrowingTip &tip : tips_)
+      if (tip.is_alive)
+        find(discretization, tip);
+  }
+
+  void
+  CrackGrowth::observe(const SolvedShell &shell)
+  {
+    const Growth &growth = problem_.growth;
+    for (GrowingTip &tip : tips_)
+      {
+        if (!tip.is_alive)
+          continue;
+        const CutTrace::Tip end = find(shell.discretization, tip);
+        tip.position            = end.position;
+        tip.step                = growth.step;
+        if (growth.step_is_in_cells)
+          tip.step *= cell_size_at(shell.discretization, end);
+        if (!growth.is_prescribed())
+          measure(shell, end, tip);
+        tip.angle =
+          chosen_angle(shell.discretization, end, tip, shell.instant.time);
+      }
+  }
+
+  void
+  CrackGrowth::scale(const double factor)
+  {
+    for (GrowingTip &tip : tips_)
+      {
+        tip.rate *= factor * factor;
+        tip.drive *= factor * factor;
+        for (double &intensity : tip.intensities)
+          intensity *= factor;
+      }
+  }
+
+  void
+  CrackGrowth::measure(const SolvedShell   &shell,
+                       const CutTrace::Tip &end,
+                       GrowingTip          &tip) const
+  {
+    const Growth     &growth = problem_.growth;
+    const std::string where  = "Growth/Tips, '" + tip.name + "'";
+    const CrackTip    crack  = make_crack_tip(shell.discretization, end, where);
+    AssertThrow(tip.step > 1.5 * crack.closed,
+                ExcMessage("Growth/Step: at the tip '" + tip.name +
+                           "' a step of " + Text::number(tip.step) +
+                           " is too short to tell G: the crack is closed over "
+                           "the last " +
+                           Text::number(crack.closed) +
+                           " of the cut, within a cell. Choose a longer step, "
+                           "or a finer mesh."));
+    // The kink of the last step lies outside.
+    const double least = 0.95 * (tip.step - crack.closed);
+    const double room =
+      find_room(shell.discretization, crack, tip.end.cut, least);
+    const double     outer = std::min(0.9 * room,
+                                  std::max(least,
+                                           widest_ring * crack.cell_size));
+    const TipRelease release =
+      compute_tip_release(shell, crack, CrackPlateau{outer / 3., outer}, where);
+    AssertThrow(release.has_intensities ||
+                  growth.direction != GrowthDirection::hoop_stress,
+                ExcMessage("Growth/Direction: at the tip '" + tip.name +
+                           "' the section isn't homogeneous and isotropic, as "
+                           "'hoop stress' needs it; choose 'straight' or a "
+                           "vector 'dx, dy, dz'."));
+    tip.closed          = crack.closed;
+    tip.rate            = release.rate;
+    tip.has_intensities = release.has_intensities;
+    tip.intensities     = release.intensities;
+    tip.drive           = release.rate / (growth.toughness * release.thickness);
+    tip.angle           = release.hoop_stress.angle;
+  }
+
+  double
+  CrackGrowth::chosen_angle(const Discretization &discretization,
+                            const CutTrace::Tip  &end,
+                            const GrowingTip     &tip,
+                            const double          time) const
+  {
+    const Growth &growth = problem_.growth;
+    if (growth.direction == GrowthDirection::hoop_stress)
+      return tip.angle;
+    if (growth.direction == GrowthDirection::straight)
+      return 0.;
+    const auto   axes  = tip_axes(discretization, end);
+    const auto   along = growth.along(end.position, time);
+    const double x = along * axes[0], y = along * axes[1];
+    AssertThrow(std::hypot(x, y) > 1e-6 * along.norm(),
+                ExcMessage("Growth/Direction: at the tip '" + tip.name +
+                           "' the vector is 0 or perpendicular to the surface; "
+                           "give one with a part along the surface."));
+    return std::atan2(y, x);
+  }
+
+  bool
+  CrackGrowth::has_tips() const
+  {
+    return std::any_of(tips_.begin(), tips_.end(), [](const auto &tip) {
+      return tip.is_alive;
+    });
+  }
+
+  double
+  CrackGrowth::largest_drive() const
+  {
+    double largest = 0.;
+    for (const GrowingTip &tip : tips_)
+      if (tip.is_alive)
+        largest = std::max(largest, tip.drive);
+    return largest;
+  }
+
+  bool
+  CrackGrowth::is_behind(const GrowingTip &tip, const double time) const
+  {
+    // A length that is a step ahead but for round-off is a step ahead.
+    const double length =
+      problem_.growth.length(Point<spacedim>(), time) - tip.advanced;
+    return tip.is_alive && length >= (1. - 1e-9) * tip.step;
+  }
+
+  bool
+  CrackGrowth::is_due(const double time) const
+  {
+    if (has_ended())
+      return false;
+    if (!problem_.growth.is_prescribed())
+      return largest_drive() >= 1.;
+    return std::any_of(tips_.begin(), tips_.end(), [&](const auto &tip) {
+      return is_behind(tip, time);
+    });
+  }
+
+  void
+  CrackGrowth::advance(const Discretization &discretization,
+                       const double          time,
+                       const bool            takes_all)
+  {
+    const Growth &growth = problem_.growth;
+    Cuts         &cuts   = problem_.model.cuts;
+    former_tips_         = tips_;
+    former_curves_       = cuts.curves;
+    const double least   = (1. - growth.tolerance) * largest_drive();
+    ++n_steps_;
+    for (GrowingTip &tip : tips_)
+      {
+        const bool grows = growth.is_prescribed() ?
+                             takes_all || is_behind(tip, time) :
+                             tip.drive >= least;
+        if (!tip.is_alive || !grows)
+          continue;
+        const TipAdvance advance = advance_tip(discretization,
+                                               problem_.model.midsurface,
+                                               find(discretization, tip),
+                                               tip.angle,
+                                               tip.step,
+                                               cuts);
+        tip.advanced += tip.step;
+        tip.is_alive = advance.stays();
+        std::ostringstream text;
+        text << "growth step " << n_steps_ << ": " << tip.name
+             << " advances by " << Text::number(tip.step) << ", turned by "
+             << Text::number(tip.angle * 180. / numbers::PI) << " degrees";
+        if (advance.leaves)
+          text << ", and leaves the surface";
+        if (advance.met)
+          text << ", and meets the cut " << cuts.curves[*advance.met].name;
+        log_.progress() << text.str() << std::endl;
+      }
+  }
+
+  void
+  CrackGrowth::undo()
+  {
+    tips_                      = former_tips_;
+    problem_.model.cuts.curves = former_curves_;
+    --n_steps_;
+  }
+
+  void
+  check_growth(const ShellProblem &problem)
+  {
+    if (!problem.growth.is_on())
+      return;
+    const PathParameters &path = problem.path;
+    AssertThrow(path.is_linear() || path.type == AnalysisType::quasi_static ||
+                  path.type == AnalysisType::relaxation,
+                ExcMessage(
+                  "Growth/Tips: with 'Analysis/Type = " + name_of(path.type) +
+                  "' cuts don't grow; choose 'linear', 'static' or "
+                  "'relaxation', or 'Tips = none'."));
+    AssertThrow(problem.growth.is_prescribed() || !path.is_linear() ||
+                  !problem.model.section.has_initial_strain(),
+                ExcMessage(
+                  "Growth/Criterion: in a linear analysis 'energy release "
+                  "rate' takes the factor of all loads at which a tip "
+                  "advances, and initial strains (Section/Initial strain) have "
+                  "none; choose 'prescribed', or 'Analysis/Type = static'."));
+    const bool has_intensities = !problem.growth.is_prescribed();
+    AssertThrow(problem.growth.direction != GrowthDirection::hoop_stress ||
+                  has_intensities,
+                ExcMessage("Growth/Direction: 'hoop stress' needs the stress "
+                           "intensities of 'Criterion = energy release rate'; "
+                           "choose 'straight' or a vector 'dx, dy, dz'."));
+  }
+} // namespace Nacre
