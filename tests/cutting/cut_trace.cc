@@ -186,6 +186,23 @@ namespace
     Points loose_ends;
   };
 
+  /** Whether a line passes through @p x. */
+  bool
+  ends_on_one(const std::vector<Points> &lines, const Point<3> &x)
+  {
+    for (const auto &line : lines)
+      for (std::size_t i = 1; i < line.size(); ++i)
+        {
+          const Tensor<1, 3> along = line[i] - line[i - 1];
+          const double s = (x - line[i - 1]) * along / along.norm_square();
+          if (s >= 0. && s <= 1. && x.distance(line[i - 1] + s * along) < 1e-9)
+            if (x.distance(line.front()) > 1e-9 &&
+                x.distance(line.back()) > 1e-9)
+              return true;
+        }
+    return false;
+  }
+
   Summary
   summarise(const Shell &shell, const CutTrace &trace)
   {
@@ -199,13 +216,15 @@ namespace
             if (!cell->at_boundary(f) && cell->id() < cell->neighbor(f)->id())
               result.n_opened += trace.opened(k, f).size();
         }
-    Points ends;
+    Points              ends;
+    std::vector<Points> lines;
     for (const auto &line : trace.lines())
       {
         for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
           result.length += line.points[i].distance(line.points[i + 1]);
         ends.push_back(line.points.front());
         ends.push_back(line.points.back());
+        lines.push_back(line.points);
       }
     result.n_chains = Utilities::MPI::sum(result.n_chains, MPI_COMM_WORLD);
     result.n_opened = Utilities::MPI::sum(result.n_opened, MPI_COMM_WORLD);
@@ -213,8 +232,12 @@ namespace
     Points all;
     for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, ends))
       all.insert(all.end(), part.begin(), part.end());
+    std::vector<Points> all_lines;
+    for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, lines))
+      all_lines.insert(all_lines.end(), part.begin(), part.end());
     for (const auto &x : all)
-      if (std::count_if(all.begin(), all.end(), [&](const Point<3> &y) {
+      if (!ends_on_one(all_lines, x) &&
+          std::count_if(all.begin(), all.end(), [&](const Point<3> &y) {
             return x.distance(y) < 1e-9;
           }) == 1)
         result.loose_ends.push_back(x);
@@ -336,6 +359,19 @@ namespace
           shell,
           crossing,
           {std::hypot(3.5, 0.1) + std::hypot(0.2, 2.7), round_off, 4, 4});
+
+    Cuts joined = one_cut(uv, {{0.2, 1.3, 0.}, {3.7, 1.3, 0.}});
+    joined.curves.push_back({"stem", uv, {{2.1, 1.3, 0.}, {2.3, 2.4, 0.}}});
+    joined.curves.push_back(
+      {"hook",
+       uv,
+       {{1.2, 1.9, 0.}, {1.8, 1.9, 0.}, {1.5, 2.5, 0.}, {1.5, 1.9, 0.}}});
+    joined.curves.push_back({"rail", uv, {{3., 1., 0.}, {3., 3.1, 0.}}});
+    joined.curves.push_back({"spur", uv, {{3., 2.6, 0.}, {3.6, 2.6, 0.}}});
+    check("ends on other cuts and on its own",
+          shell,
+          joined,
+          {7.3 + std::hypot(0.2, 1.1) + std::hypot(0.3, 0.6), 1e-12, 6, 7});
   }
 
   void
