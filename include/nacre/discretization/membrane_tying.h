@@ -29,8 +29,8 @@ namespace Nacre
    * are its moments against 1 and t, and the strain's mean components.
    *
    * What the strain is interpolated from are its coefficients: the samples, or,
-   * where the strain is projected, sums of them. The functions that turn samples
-   * into coefficients and back do nothing where both are the same.
+   * where the strain is projected, sums of them. The functions that turn
+   * samples into coefficients and back do nothing where both are the same.
    */
   class MembraneTying
   {
