@@ -5,6 +5,7 @@
 #include <nacre/discretization/cell_projection.h>
 #include <nacre/discretization/cut_events.h>
 #include <nacre/discretization/cut_trace.h>
+#include <nacre/discretization/plane_geometry.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -75,6 +76,8 @@ namespace Nacre
       /** Whether the cut does no more than touch the cell there. */
       bool touches;
       Tip  tip;
+      /** Whether it lies on a cut in the cell, and is no tip then. */
+      bool joins = false;
 
       bool
       operator<(const TipOfCell &other) const
@@ -87,7 +90,7 @@ namespace Nacre
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &touches &tip;
+        archive &touches &tip &joins;
       }
     };
 
@@ -126,6 +129,10 @@ namespace Nacre
             const bool         at_end,
             const CutEvent    &event,
             const bool         touches);
+
+    /** Whether it lies on another cut, or another leg of its own. */
+    bool
+    joins_cut(const Tip &tip) const;
 
     /** Add to a face, in the terms of its cell. */
     void
@@ -405,19 +412,53 @@ namespace Nacre
   }
 
 
+  bool
+  CutTrace::Tracer::joins_cut(const Tip &tip) const
+  {
+    using namespace PlaneGeometry;
+    const Cell       cell  = mesh_.create_cell_iterator(tip.cell);
+    const CellTrace &trace = traces_[cell->active_cell_index()];
+    const auto       is_on =
+      [&](const unsigned int cut, const Point<dim> &a, const Point<dim> &b) {
+        const bool is_its_own =
+          cut == tip.cut && (a.distance(tip.unit) < snap_distance ||
+                             b.distance(tip.unit) < snap_distance);
+        return !is_its_own &&
+               nearest_on_segment(a, b, tip.unit).distance(tip.unit) <
+                 snap_distance;
+      };
+    for (const CutChain &chain : trace.chains)
+      for (std::size_t i = 1; i < chain.points.size(); ++i)
+        if (is_on(chain.cut, chain.points[i - 1], chain.points[i]))
+          return true;
+    for (unsigned int f = 0; f < trace.openings.size(); ++f)
+      for (const Opening &opening : trace.openings[f])
+        if (is_on(opening.cut,
+                  faces_.point(f, opening.begin),
+                  faces_.point(f, opening.end)))
+          return true;
+    return false;
+  }
+
+
   std::vector<CutTrace::Tip>
   CutTrace::Tracer::tips() const
   {
+    std::vector<TipOfCell> mine = tips_;
+    for (TipOfCell &tip : mine)
+      tip.joins = joins_cut(tip.tip);
     std::map<std::pair<unsigned int, bool>, TipOfCell> lowest;
     for (const auto &tips :
-         Utilities::MPI::all_gather(mesh_.get_communicator(), tips_))
+         Utilities::MPI::all_gather(mesh_.get_communicator(), mine))
       for (const TipOfCell &tip : tips)
         {
           const auto found =
             lowest.emplace(std::make_pair(tip.tip.cut, tip.tip.at_end), tip)
               .first;
+          const bool joins = tip.joins || found->second.joins;
           if (tip < found->second)
             found->second = tip;
+          found->second.joins = joins;
         }
     std::vector<Tip> result;
     for (const auto &[key, of_cell] : lowest)
@@ -425,9 +466,10 @@ namespace Nacre
         // A cut around a closed surface ends where it has begun.
         const Tip &tip   = of_cell.tip;
         const auto other = lowest.find({key.first, !key.second});
-        if (other == lowest.end() ||
-            other->second.tip.position.distance(tip.position) >
-              1e-9 * Tensor<1, spacedim>(tip.position).norm())
+        if (!of_cell.joins &&
+            (other == lowest.end() ||
+             other->second.tip.position.distance(tip.position) >
+               1e-9 * Tensor<1, spacedim>(tip.position).norm()))
           result.push_back(tip);
       }
     return result;

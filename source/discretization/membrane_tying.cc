@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/simd.h>
 #include <nacre/discretization/membrane_tying.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <algorithm>
@@ -43,7 +43,10 @@ namespace Nacre
       return {{1. - x[0] - x[1], x[0], x[1]}};
     }
 
-    /** Exponents (i, j) of the tied component @p v, by ascending i + j. */
+    /**
+     * Exponents (i, j) of the tied component @p v, by ascending i + j; of e11
+     * and e22 only those that 2 e12 doesn't have.
+     */
     std::vector<std::array<unsigned int, 2>>
     tied_exponents(const Element &element, const unsigned int v)
     {
@@ -55,42 +58,52 @@ namespace Nacre
       std::vector<std::array<unsigned int, 2>> exponents;
       for (unsigned int sum = 0; sum <= (triangle ? 1 : i_max + j_max); ++sum)
         for (unsigned int i = 0; i <= std::min(sum, i_max); ++i)
-          if (sum - i <= j_max)
+          if (sum - i <= j_max &&
+              (v == 2 || (!triangle && std::max(i, sum - i) == p)))
             exponents.push_back({{i, sum - i}});
       return exponents;
     }
 
-    /** Columns of values [polynomial](point) of Legendre products on a box. */
-    std::vector<Vector<double>>
-    legendre_products(const std::vector<std::array<unsigned int, 2>> &exponents,
-                      const BoundingBox<dim>                         &box,
-                      const std::vector<Point<dim>>                  &points)
+    /** Values [polynomial](point). */
+    using Columns = std::vector<Vector<double>>;
+
+    /** Append Legendre products on a box. */
+    void
+    append_products(const std::vector<std::array<unsigned int, 2>> &exponents,
+                    const BoundingBox<dim>                         &box,
+                    const std::vector<Point<dim>>                  &points,
+                    Columns                                        &columns)
     {
-      const auto legendre = Polynomials::Legendre::generate_complete_basis(
-        exponents.back()[0] + exponents.back()[1]);
-      std::vector<Vector<double>> columns;
+      unsigned int degree = 0;
       for (const auto &[i, j] : exponents)
+        degree = std::max({degree, i, j});
+      const auto legendre =
+        Polynomials::Legendre::generate_complete_basis(degree);
+      const unsigned int first = columns.size();
+      columns.resize(first + exponents.size(), Vector<double>(points.size()));
+      std::vector<std::array<double, dim>> values(degree + 1);
+      for (unsigned int q = 0; q < points.size(); ++q)
         {
-          Vector<double> column(points.size());
-          for (unsigned int q = 0; q < points.size(); ++q)
-            {
-              const auto x = box.real_to_unit(points[q]);
-              column(q)    = legendre[i].value(x[0]) * legendre[j].value(x[1]);
-            }
-          columns.push_back(column);
+          const auto x = box.real_to_unit(points[q]);
+          for (unsigned int i = 0; i <= degree; ++i)
+            values[i] = {{legendre[i].value(x[0]), legendre[i].value(x[1])}};
+          for (unsigned int c = 0; c < exponents.size(); ++c)
+            columns[first + c](q) =
+              values[exponents[c][0]][0] * values[exponents[c][1]][1];
         }
-      return columns;
     }
 
     /**
      * Modified Gram-Schmidt, twice over, in the weighted inner product of the
-     * @p columns. The @p followers, values elsewhere of the same functions,
-     * are combined alike. Dependent columns are removed.
+     * @p columns, of which the first @p n are orthonormal. The @p followers,
+     * values elsewhere of the same functions or none, are combined alike.
+     * Dependent columns are removed.
      */
     void
-    orthonormalise(const std::vector<double>   &weights,
-                   std::vector<Vector<double>> &columns,
-                   std::vector<Vector<double>> &followers)
+    orthonormalise(const std::vector<double> &weights,
+                   unsigned int               n,
+                   Columns                   &columns,
+                   Columns                   &followers)
     {
       const auto product = [&](const auto &f, const auto &g) {
         double sum = 0.;
@@ -98,30 +111,106 @@ namespace Nacre
           sum += weights[q] * f(q) * g(q);
         return sum;
       };
-      unsigned int n = 0;
-      for (unsigned int c = 0; c < columns.size(); ++c)
+      const bool follow = !followers.empty();
+      for (unsigned int c = n; c < columns.size(); ++c)
         {
-          Vector<double> f = columns[c], g = followers[c];
-          const double   first_norm = std::sqrt(product(f, f));
+          Vector<double> f = columns[c], g;
+          if (follow)
+            g = followers[c];
+          const double first_norm = std::sqrt(product(f, f));
           for (unsigned int pass = 0; pass < 2; ++pass)
             for (unsigned int k = 0; k < n; ++k)
               {
                 const double share = product(columns[k], f);
                 f.add(-share, columns[k]);
-                g.add(-share, followers[k]);
+                if (follow)
+                  g.add(-share, followers[k]);
               }
           const double norm = std::sqrt(product(f, f));
           if (norm <= 1e-11 * first_norm)
             continue;
           f /= norm;
-          g /= norm;
-          columns[n]     = f;
-          followers[n++] = g;
+          columns[n].swap(f);
+          if (follow)
+            {
+              g /= norm;
+              followers[n].swap(g);
+            }
+          ++n;
         }
       columns.resize(n);
-      followers.resize(n);
+      if (follow)
+        followers.resize(n);
+    }
+
+    NACRE_SIMD void
+    combine_rows(const double                                *rows,
+                 const std::pair<unsigned int, double> *const weights,
+                 const unsigned int                           n_weights,
+                 const unsigned int                           n,
+                 double                                      *row)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        row[i] = 0.;
+      for (unsigned int k = 0; k < n_weights; ++k)
+        {
+          const double *const from   = rows + weights[k].first * n;
+          const double        weight = weights[k].second;
+          for (unsigned int i = 0; i < n; ++i)
+            row[i] += weight * from[i];
+        }
+    }
+
+    NACRE_SIMD void
+    add_to_rows(const double *const                          row,
+                const std::pair<unsigned int, double> *const weights,
+                const unsigned int                           n_weights,
+                const unsigned int                           n,
+                double *__restrict const rows)
+    {
+      for (unsigned int k = 0; k < n_weights; ++k)
+        {
+          double *const to     = rows + weights[k].first * n;
+          const double  weight = weights[k].second;
+          for (unsigned int i = 0; i < n; ++i)
+            to[i] += weight * row[i];
+        }
     }
   } // namespace
+
+  void
+  combine(const FullMatrix<double>     &rows,
+          const MembraneTying::Weights &weights,
+          double                       *row)
+  {
+    combine_rows(&rows(0, 0), weights.data(), weights.size(), rows.n(), row);
+  }
+
+  void
+  MembraneTying::sum_rows(FullMatrix<double> &rows) const
+  {
+    if (sums_.empty())
+      return;
+    FullMatrix<double> sums(sums_.size(), rows.n());
+    for (unsigned int j = 0; j < sums_.size(); ++j)
+      combine(rows, sums_[j], &sums(j, 0));
+    rows.swap(sums);
+  }
+
+  void
+  MembraneTying::spread_rows(FullMatrix<double> &rows) const
+  {
+    if (sums_.empty())
+      return;
+    FullMatrix<double> shares(samples_.size(), rows.n());
+    for (unsigned int j = 0; j < sums_.size(); ++j)
+      add_to_rows(&rows(j, 0),
+                  sums_[j].data(),
+                  sums_[j].size(),
+                  rows.n(),
+                  &shares(0, 0));
+    rows.swap(shares);
+  }
 
   MembraneTying::MembraneTying(const Element                 &element,
                                const std::vector<Point<dim>> &targets)
@@ -160,23 +249,51 @@ namespace Nacre
     MembraneTying tying = untied(part.get_points());
     tying.weights_.assign(3 * targets.size(), Weights());
     const BoundingBox<dim> box(part.get_points());
-    for (unsigned int v = 0; v < 3; ++v)
+    const bool             at_rule = targets == part.get_points();
+    // All components have the functions of 2 e12.
+    Columns common, common_at_targets;
+    for (const unsigned int v : {2, 0, 1})
       {
+        Columns    at_points = common, at_targets = common_at_targets;
         const auto exponents = tied_exponents(element, v);
-        auto at_points  = legendre_products(exponents, box, part.get_points());
-        auto at_targets = legendre_products(exponents, box, targets);
-        orthonormalise(area_weights, at_points, at_targets);
-        for (unsigned int q = 0; q < targets.size(); ++q)
-          for (unsigned int k = 0; k < part.size(); ++k)
-            {
-              double weight = 0.;
-              for (unsigned int j = 0; j < at_points.size(); ++j)
-                weight += at_targets[j](q) * at_points[j](k);
-              tying.weights_[3 * q + v].emplace_back(3 * k + v,
-                                                     weight * area_weights[k]);
-            }
+        append_products(exponents, box, part.get_points(), at_points);
+        if (!at_rule)
+          append_products(exponents, box, targets, at_targets);
+        orthonormalise(area_weights, common.size(), at_points, at_targets);
+        tying.add_functions(v,
+                            area_weights,
+                            at_points,
+                            at_rule ? at_points : at_targets);
+        if (v == 2)
+          {
+            common            = std::move(at_points);
+            common_at_targets = std::move(at_targets);
+          }
       }
     return tying;
+  }
+
+  void
+  MembraneTying::add_functions(const unsigned int                 v,
+                               const std::vector<double>         &area_weights,
+                               const std::vector<Vector<double>> &at_points,
+                               const std::vector<Vector<double>> &at_targets)
+  {
+    const unsigned int first = sums_.size();
+    for (const auto &function : at_points)
+      {
+        sums_.emplace_back();
+        sums_.back().reserve(area_weights.size());
+        for (unsigned int k = 0; k < area_weights.size(); ++k)
+          sums_.back().emplace_back(3 * k + v, function(k) * area_weights[k]);
+      }
+    for (unsigned int q = 0; q < weights_.size() / 3; ++q)
+      {
+        auto &weights = weights_[3 * q + v];
+        weights.reserve(at_targets.size());
+        for (unsigned int j = 0; j < at_targets.size(); ++j)
+          weights.emplace_back(first + j, at_targets[j](q));
+      }
   }
 
   void

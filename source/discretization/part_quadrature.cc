@@ -70,10 +70,14 @@ namespace Nacre
   part_quadrature(const CellPolygon &polygon, const unsigned int degree)
   {
     // n Gauss points are exact to 2 n - 1; the Jacobian of the bilinear map, or
-    // of the collapse, takes one degree.
-    const unsigned int      n = 2 * degree + 1;
-    const QGauss<dim>       on_square(n);
-    const QDuffy            on_triangle(n, 1.);
+    // of the collapse, takes one degree. The table of symmetric rules, which
+    // need fewer points, ends at the degree 14.
+    const unsigned int  n = 2 * degree + 1;
+    const QGauss<dim>   on_square(n);
+    const QSimplex<dim> on_triangle =
+      degree <= 3 ?
+        QSimplex<dim>(QWitherdenVincentSimplex<dim>(2 * degree, false)) :
+        QSimplex<dim>(QDuffy(n, 1.));
     std::vector<Point<dim>> points;
     std::vector<double>     weights;
     auto                    triangles = polygon.triangles();

@@ -3,12 +3,14 @@
 
 #include <nacre/discretization/removed_parts.h>
 #include <nacre/discretization/shell_components.h>
+#include <nacre/problem/midsurface.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace Nacre
@@ -73,5 +75,40 @@ namespace Nacre
       result[part.index()] = is_removed[components.of(part)];
     send_to_ghosts(discretization, result);
     return result;
+  }
+
+  void
+  check_removed_edges(const Discretization     &discretization,
+                      const Midsurface         &midsurface,
+                      const BoundaryConditions &supports,
+                      const Loads              &loads)
+  {
+    const CellParts &parts = discretization.cell_parts();
+    if (!parts.are_removed())
+      return;
+    std::map<types::boundary_id, std::string> named;
+    for (const auto &[id, conditions] : supports.edges())
+      if (!conditions.displacements.empty() || conditions.rotation != nullptr)
+        named.emplace(id, "Boundary conditions/Edges");
+    for (const auto &[id, force] : loads.edge_forces())
+      named.emplace(id, "Loads/Edge forces");
+    for (const auto &[id, moment] : loads.edge_moments())
+      named.emplace(id, "Loads/Edge moments");
+
+    std::vector<unsigned int> remains(midsurface.edge_names().size(), 0);
+    for (const CellPart &part : discretization.owned_parts())
+      for (const unsigned int face : part.cell->face_indices())
+        if (part.cell->at_boundary(face) &&
+            !parts.pieces_of(part, face).empty())
+          remains.at(part.cell->face(face)->boundary_id()) = 1;
+    std::vector<unsigned int> on_all(remains.size());
+    Utilities::MPI::max(remains, discretization.communicator(), on_all);
+    for (const auto &[id, parameter] : named)
+      AssertThrow(on_all.at(id) == 1,
+                  ExcMessage("Cuts/Remove takes away all of " +
+                             midsurface.describe_side(id) + ", which " +
+                             parameter +
+                             " names. Leave the edge out there, or state "
+                             "points of other pieces."));
   }
 } // namespace Nacre

@@ -3,10 +3,6 @@
 
 #include <nacre/discretization/shape_table.h>
 
-#include <deal.II/base/polynomial.h>
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/tensor_product_polynomials.h>
-
 #include <deal.II/fe/fe_q.h>
 
 namespace Nacre
@@ -34,10 +30,6 @@ namespace Nacre
   ShapeTable::fill_products(const FE_Q<dim, spacedim>     &fe,
                             const std::vector<Point<dim>> &points)
   {
-    TensorProductPolynomials<dim> polynomials(
-      Polynomials::generate_complete_Lagrange_basis(
-        QGaussLobatto<1>(fe.degree + 1).get_points()));
-    polynomials.set_numbering(fe.get_poly_space_numbering());
     std::vector<double>         values(n_nodes_);
     std::vector<Tensor<1, dim>> gradients(n_nodes_);
     std::vector<Tensor<2, dim>> hessians(n_nodes_);
@@ -45,7 +37,8 @@ namespace Nacre
     std::vector<Tensor<4, dim>> fourth;
     for (const auto &point : points)
       {
-        polynomials.evaluate(point, values, gradients, hessians, third, fourth);
+        fe.get_poly_space()
+          .evaluate(point, values, gradients, hessians, third, fourth);
         for (unsigned int a = 0; a < n_nodes_; ++a)
           append(values[a], gradients[a], hessians[a]);
       }
@@ -63,11 +56,14 @@ namespace Nacre
 
   GeometryTable::GeometryTable(const FiniteElement<dim, spacedim> &fe,
                                const std::vector<Point<dim>>      &points)
-    : rows_(fe.n_dofs_per_cell(), n_kinds * points.size())
+    : GeometryTable(ShapeTable(fe, points))
+  {}
+
+  GeometryTable::GeometryTable(const ShapeTable &shapes)
+    : rows_(shapes.n_nodes(), n_kinds * shapes.n_points())
   {
-    const ShapeTable shapes(fe, points);
     for (unsigned int b = 0; b < rows_.m(); ++b)
-      for (unsigned int q = 0; q < points.size(); ++q)
+      for (unsigned int q = 0; q < shapes.n_points(); ++q)
         {
           double *row = &rows_(b, n_kinds * q);
           row[0]      = shapes.value(q, b);

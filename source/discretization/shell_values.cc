@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/simd.h>
 #include <nacre/discretization/part_quadrature.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/shell_strain.h>
@@ -29,25 +28,6 @@ namespace Nacre
               {{geometry.tangent(q, 0), geometry.tangent(q, 1)}},
               geometry.second_derivatives(q)};
     }
-
-    /** row = sum of weight times the sample's row, each of @p n numbers. */
-    NACRE_SIMD void
-    combine(const double                                *samples,
-            const std::pair<unsigned int, double> *const weights,
-            const unsigned int                           n_weights,
-            const unsigned int                           n,
-            double                                      *row)
-    {
-      for (unsigned int i = 0; i < n; ++i)
-        row[i] = 0.;
-      for (unsigned int k = 0; k < n_weights; ++k)
-        {
-          const double *const sample = samples + weights[k].first * n;
-          const double        weight = weights[k].second;
-          for (unsigned int i = 0; i < n; ++i)
-            row[i] += weight * sample[i];
-        }
-    }
   } // namespace
 
   ShellCellValues::Tables::Tables(const Discretization  &discretization,
@@ -61,7 +41,10 @@ namespace Nacre
     , tying_shapes(has_tying_points ?
                      ShapeTable(discretization.scalar_fe(), tying.points()) :
                      shapes)
-    , geometry(discretization.geometry_fe(), quadrature.get_points())
+    , geometry(
+        discretization.geometry_fe() == discretization.scalar_fe() ?
+          GeometryTable(shapes) :
+          GeometryTable(discretization.geometry_fe(), quadrature.get_points()))
     , tying_geometry(
         has_tying_points ?
           GeometryTable(discretization.geometry_fe(), tying.points()) :
@@ -94,9 +77,9 @@ namespace Nacre
     const bool         samples = of.has_tying_points || is_cut();
     frames_.resize(n);
     tying_frames_.resize(of.has_tying_points ? of.tying.points().size() : 0);
-    membrane_rows_.reinit(3 * n, n_dofs());
-    bending_rows_.reinit(3 * n, n_dofs());
-    tying_rows_.reinit(samples ? of.tying.samples().size() : 0, n_dofs());
+    membrane_rows_.reinit(3 * n, n_dofs(), true);
+    bending_rows_.reinit(3 * n, n_dofs(), true);
+    tying_rows_.reinit(samples ? of.tying.samples().size() : 0, n_dofs(), true);
   }
 
   void
@@ -256,16 +239,12 @@ namespace Nacre
               row[dofs[spacedim * a + c]] = dN[0] * g_1[c] + dN[1] * g_2[c];
           }
       }
+    tying.sum_rows(tying_rows_);
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
-        {
-          const auto &weights = tying.weights(q, v);
-          combine(&tying_rows_(0, 0),
-                  weights.data(),
-                  weights.size(),
-                  tying_rows_.n(),
-                  &membrane_rows_(3 * q + v, 0));
-        }
+        combine(tying_rows_,
+                tying.weights(q, v),
+                &membrane_rows_(3 * q + v, 0));
   }
 
   void
@@ -723,14 +702,9 @@ namespace Nacre
     tied.rows.reinit(3 * n_points(), n, true);
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
-        {
-          const auto &weights = tying(side).weights(q, v);
-          combine(&tied.samples(0, 0),
-                  weights.data(),
-                  weights.size(),
-                  n,
-                  &tied.rows(3 * q + v, 0));
-        }
+        combine(tied.samples,
+                tying(side).weights(q, v),
+                &tied.rows(3 * q + v, 0));
     return tied.rows;
   }
 

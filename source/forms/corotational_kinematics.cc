@@ -16,14 +16,20 @@ namespace Nacre
   membrane_stiffness(const ShellCellValues            &values,
                      const std::vector<VoigtMatrix<>> &stiffness)
   {
-    const auto        &tying = values.tying();
-    FullMatrix<double> M(tying.samples().size());
+    const auto         &tying = values.tying();
+    const unsigned int  n     = tying.n_coefficients();
+    FullMatrix<double>  M(n);
+    std::vector<double> force(n);
     for (unsigned int q = 0; q < stiffness.size(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
-        for (unsigned int w = 0; w < 3; ++w)
-          for (const auto &[r, weight_r] : tying.weights(q, v))
-            for (const auto &[s, weight_s] : tying.weights(q, w))
-              M(r, s) += weight_r * stiffness[q][v][w] * weight_s;
+        {
+          std::fill(force.begin(), force.end(), 0.);
+          for (unsigned int w = 0; w < 3; ++w)
+            for (const auto &[s, weight] : tying.weights(q, w))
+              force[s] += stiffness[q][v][w] * weight;
+          for (const auto &[r, weight] : tying.weights(q, v))
+            add_scaled(n, weight, force.data(), &M(r, 0));
+        }
     return M;
   }
 
@@ -300,7 +306,8 @@ namespace Nacre
               *row++ = dN[0] * vectors[0][d] + dN[1] * vectors[1][d];
           }
       }
-    force_rows_.reinit(samples.size(), sample_rows_.n(), true);
+    points.values.tying().sum_rows(sample_rows_);
+    force_rows_.reinit(sample_rows_.m(), sample_rows_.n(), true);
     points.membrane_stiffness.mmult(force_rows_, sample_rows_);
     if (!points.stiffness.coupling.empty())
       {
@@ -316,6 +323,7 @@ namespace Nacre
     const auto        &samples = points.values.tying().samples();
     const auto        &shapes  = points.values.tying_shapes();
     const unsigned int n       = points.values.n_dofs();
+    points.values.tying().spread_rows(force_rows_);
     // Forces change with the strains ...
     for (unsigned int s = 0; s < samples.size(); ++s)
       {

@@ -190,13 +190,13 @@ namespace Nacre
   FiniteCellTerms::fill_membrane_rows(const CellPoints &points)
   {
     const auto &values = points.values;
-    membrane_tangent_.fill_sample_rows(values.tying(),
-                                       values.tying_shapes(),
-                                       points.cell.membrane(),
-                                       [&values](const unsigned int a,
-                                                 const unsigned int c) {
-                                         return values.dof(a, c);
-                                       });
+    membrane_tangent_.fill_rows(values.tying(),
+                                values.tying_shapes(),
+                                points.cell.membrane(),
+                                [&values](const unsigned int a,
+                                          const unsigned int c) {
+                                  return values.dof(a, c);
+                                });
     for (unsigned int q = 0; q < values.n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)
         membrane_tangent_.add_strain_row(values.tying(),

@@ -168,13 +168,13 @@ namespace Nacre
     if (!is_coupled)
       return;
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
-      membrane_tangents_[s].fill_sample_rows(edge.tying(s),
-                                             edge.tying_shapes(),
-                                             membrane_[s],
-                                             [](const unsigned int a,
-                                                const unsigned int c) {
-                                               return spacedim * a + c;
-                                             });
+      membrane_tangents_[s].fill_rows(edge.tying(s),
+                                      edge.tying_shapes(),
+                                      membrane_[s],
+                                      [](const unsigned int a,
+                                         const unsigned int c) {
+                                        return spacedim * a + c;
+                                      });
   }
 
   void

@@ -18,11 +18,12 @@ namespace Nacre
     forces_at_tying_points(const MembraneTying        &tying,
                            const std::vector<Voigt<>> &forces)
     {
-      std::vector<double> samples(tying.samples().size(), 0.);
+      std::vector<double> samples(tying.n_coefficients(), 0.);
       for (unsigned int q = 0; q < forces.size(); ++q)
         for (unsigned int v = 0; v < 3; ++v)
           for (const auto &[s, weight] : tying.weights(q, v))
             samples[s] += weight * forces[q][v];
+      tying.spread(samples);
       std::vector<Voigt<>> result(tying.points().size());
       for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int v = 0; v < 3; ++v)

@@ -12,8 +12,8 @@ namespace Nacre
                                     const double         factor,
                                     double *const        row) const
   {
-    for (const auto &[s, weight] : tying.weights(q, v))
-      add_scaled(sample_rows_.n(), factor * weight, &sample_rows_(s, 0), row);
+    for (const auto &[k, weight] : tying.weights(q, v))
+      add_scaled(rows_.n(), factor * weight, &rows_(k, 0), row);
   }
 
   const FullMatrix<double> &

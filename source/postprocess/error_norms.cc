@@ -8,6 +8,10 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <deal.II/fe/fe_dgp.h>
+
+#include <deal.II/lac/householder.h>
+
 namespace Nacre
 {
   namespace
@@ -69,6 +73,7 @@ namespace Nacre
                   quadrature_,
                   recovers_tied_strain(shell.model.kinematics.membrane_strain))
         , fine_fe_(shell.discretization.degree() + 2)
+        , part_fe_(shell.discretization.degree() + 2)
         , fine_shapes_(fine_fe_, quadrature_.get_points())
         , dofs_(values_.n_dofs())
         , u_(values_.n_dofs())
@@ -84,26 +89,56 @@ namespace Nacre
           u_[i] = shell_.displacement(dofs_[i]);
 
         exact_.clear();
-        for (const auto &unit : fine_fe_.get_unit_support_points())
-          exact_.push_back(shell_.model.exact_solution.displacement(
-            shell_.discretization.mapping()
-              .transform_unit_to_real_cell(part.cell, unit)));
         if (part.is_cut())
-          {
-            const ShapeTable shapes(fine_fe_,
-                                    values_.quadrature().get_points());
-            for (unsigned int q = 0; q < values_.n_points(); ++q)
-              add_point(q, shapes);
-          }
+          add_part();
         else
-          for (unsigned int q = 0; q < values_.n_points(); ++q)
-            add_point(q, fine_shapes_);
+          {
+            for (const auto &unit : fine_fe_.get_unit_support_points())
+              exact_.push_back(shell_.model.exact_solution.displacement(
+                shell_.discretization.mapping()
+                  .transform_unit_to_real_cell(part.cell, unit)));
+            for (unsigned int q = 0; q < values_.n_points(); ++q)
+              add_point(q, fine_shapes_);
+          }
       }
 
       /** L2, H1, energy. */
       std::array<double, 3> squares{};
 
     private:
+      /**
+       * The least squares of complete polynomials at the part's own points: the
+       * exact solution may jump at a cut, and nodes lie across it.
+       */
+      void
+      add_part()
+      {
+        const ShapeTable   shapes(part_fe_, values_.quadrature().get_points());
+        FullMatrix<double> matrix(values_.n_points(), shapes.n_nodes());
+        std::array<Vector<double>, spacedim> data;
+        data.fill(Vector<double>(values_.n_points()));
+        for (unsigned int q = 0; q < values_.n_points(); ++q)
+          {
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              matrix(q, a) = shapes.value(q, a);
+            const auto u =
+              shell_.model.exact_solution.displacement(values_.point(q));
+            for (unsigned int c = 0; c < spacedim; ++c)
+              data[c](q) = u[c];
+          }
+        Householder<double> squares(matrix);
+        Vector<double>      coefficients(shapes.n_nodes());
+        exact_.resize(shapes.n_nodes());
+        for (unsigned int c = 0; c < spacedim; ++c)
+          {
+            squares.least_squares(coefficients, data[c]);
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              exact_[a][c] = coefficients(a);
+          }
+        for (unsigned int q = 0; q < values_.n_points(); ++q)
+          add_point(q, shapes);
+      }
+
       void
       add_point(const unsigned int q, const ShapeTable &fine_shapes)
       {
@@ -147,6 +182,7 @@ namespace Nacre
       ShellCellValues       values_;
       /** On the square that holds a triangle, too. */
       const FE_Q<dim, spacedim>            fine_fe_;
+      const FE_DGP<dim, spacedim>          part_fe_;
       const ShapeTable                     fine_shapes_;
       std::vector<types::global_dof_index> dofs_;
       Vector<double>                       u_;

@@ -136,6 +136,7 @@ namespace Nacre
                           0.5 * direction[1] * (phi[1] * phi[1] - a[1] * a[1]) +
                           direction[2] * (phi[0] * phi[1] - a[0] * a[1]));
       }
+    tying.sum(samples);
     const auto &shapes = values_->shapes();
     for (unsigned int q = 0; q < values_->n_points(); ++q)
       {

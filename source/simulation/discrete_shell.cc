@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/log.h>
+#include <nacre/discretization/removed_parts.h>
 #include <nacre/mechanics/elastic_plate.h>
 #include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/simulation/discrete_shell.h>
@@ -76,6 +77,10 @@ namespace Nacre
                   &problem.model.foundation)
     , assembly_(discretization_, problem.model)
   {
+    check_removed_edges(discretization_,
+                        problem.model.midsurface,
+                        problem.model.supports,
+                        problem.model.loads);
     // Inertia holds a shell as well.
     if (!problem.path.has_inertia())
       check_supports(conditions_, problem.model.cuts);

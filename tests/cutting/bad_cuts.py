@@ -107,8 +107,45 @@ case("cut_no_chart",
 CASES["cut_no_chart"]["settings"].update({
     "Mid-surface/Surface": "disk", "Boundary conditions/Edges": "rim: fixed"})
 case("cut_piece_without_support",
-     ["the shell can move freely", "of the piece around"],
+     ["the shell can move freely", "of the piece around",
+      "can be taken away (Cuts/Remove)"],
      "slit: uv (a/2, -0.1) (a/2, 1.1)")
 case("cut_along_the_edge",
      ["Cuts/Cuts, 'slit'", "no part of the cut lies inside the surface"],
      "slit: uv (0, -0.1) (0, 1.1)")
+
+
+def removal(name, expect, remove, cuts="slit: uv (1.2, -0.1) (1.3, 1.1)",
+            settings=None):
+    case(name, expect, cuts, Remove=remove)
+    CASES[name]["settings"].update(settings or {})
+
+
+removal("remove_off_surface",
+        ["Cuts/Remove: (1.8 0.5 0.3)", "lies off the mid-surface by 0.3"],
+        "(1.8, 0.5, 0.3)")
+removal("remove_on_lip",
+        ["Cuts/Remove: (1.25 0.5 0)", "two parts of the surface",
+         "Choose a point further inside"],
+        "(1.25, 0.5, 0)")
+removal("remove_only_component",
+        ["Cuts/Remove: (1.8 0.5 0)", "the cuts separate no piece",
+         "Close the cut"],
+        "(1.8, 0.5, 0)", "slit: uv (1.2, -0.1) (1.25, 0.6)")
+removal("remove_everything",
+        ["Cuts/Remove", "in all 2 pieces", "nothing is left"],
+        "(1.8, 0.5, 0); (0.2, 0.5, 0)")
+removal("remove_quantity",
+        ["Quantities", "'w'", "the point lies off the mid-surface by"],
+        "(1.9, 0.5, 0)",
+        settings={"Quantities/Quantities":
+                  "w = displacement z at (1.8, 0.5, 0)"})
+removal("remove_loaded_edge",
+        ["Cuts/Remove takes away all of the edge 'u=1'",
+         "which Loads/Edge forces names", "Leave the edge out"],
+        "(1.9, 0.5, 0)", settings={"Loads/Edge forces": "u=1: 0, 0, 1"})
+removal("remove_supported_edge",
+        ["Cuts/Remove takes away all of the edge 'u=1'",
+         "which Boundary conditions/Edges names", "Leave the edge out"],
+        "(1.9, 0.5, 0)",
+        settings={"Boundary conditions/Edges": "u=0: clamped; u=1: fixed"})

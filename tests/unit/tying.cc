@@ -30,6 +30,7 @@ namespace
         samples.push_back(direction[0] * e[0] + direction[1] * e[1] +
                           direction[2] * e[2]);
       }
+    tying.sum(samples);
     std::vector<double> values(3 * n_targets);
     for (unsigned int q = 0; q < n_targets; ++q)
       for (unsigned int v = 0; v < 3; ++v)

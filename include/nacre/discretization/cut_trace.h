@@ -29,7 +29,7 @@ namespace Nacre
   public:
     using Cell = Triangulation<dim, spacedim>::active_cell_iterator;
 
-    /** An end of a cut inside the surface. */
+    /** An end of a cut inside the surface, and on no other cut. */
     struct Tip
     {
       /** Number of the cut. */

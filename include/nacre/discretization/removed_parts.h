@@ -5,6 +5,8 @@
 #define nacre_discretization_removed_parts_h
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/problem/boundary_conditions.h>
+#include <nacre/problem/loads.h>
 
 #include <vector>
 
@@ -19,6 +21,16 @@ namespace Nacre
   std::vector<bool>
   find_removed_parts(const Discretization               &discretization,
                      const std::vector<Point<spacedim>> &points);
+
+  /**
+   * Throws if all of an edge, one boundary id of @p midsurface, that @p
+   * supports or @p loads name has been taken away with the parts. Collective.
+   */
+  void
+  check_removed_edges(const Discretization     &discretization,
+                      const Midsurface         &midsurface,
+                      const BoundaryConditions &supports,
+                      const Loads              &loads);
 } // namespace Nacre
 
 #endif

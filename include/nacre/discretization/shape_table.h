@@ -96,6 +96,9 @@ namespace Nacre
     GeometryTable(const FiniteElement<dim, spacedim> &fe,
                   const std::vector<Point<dim>>      &points);
 
+    /** @param shapes of the geometry's element */
+    explicit GeometryTable(const ShapeTable &shapes);
+
     unsigned int
     n_points() const
     {

@@ -36,8 +36,8 @@ namespace Nacre
   /**
    * The membrane part of the co-rotational cell, (46)-(48): the membrane
    * strain of R^T phi - phi0 is sampled at the tying points, each with a polar
-   * rotation of its own; the energy is 1/2 e . M . e of the samples e, to which
-   * sections with coupling add half of eps : B : rho.
+   * rotation of its own; the energy is 1/2 e . M . e of the coefficients e, to
+   * which sections with coupling add half of eps : B : rho.
    *
    * The values that give the tying points are ShellCellValues or the side of an
    * edge, EdgeSideTying.
@@ -127,7 +127,7 @@ namespace Nacre
     {
       Number sum = 0.;
       for (unsigned int s = 0; s < this->strains_.size(); ++s)
-        sum += 0.5 * this->strain(s) * this->sample_force(s);
+        sum += 0.5 * this->strains_[s] * this->forces_[s];
       return sum;
     }
 
@@ -197,10 +197,9 @@ namespace Nacre
     void
     set_forces(const MembraneTying &tying, const FullMatrix<double> &stiffness)
     {
-      const auto &samples = tying.samples();
       this->clear_forces();
-      for (unsigned int s = 0; s < samples.size(); ++s)
-        for (unsigned int r = 0; r < samples.size(); ++r)
+      for (unsigned int s = 0; s < stiffness.m(); ++s)
+        for (unsigned int r = 0; r < stiffness.n(); ++r)
           this->forces_[s] += stiffness(s, r) * this->strains_[r];
       this->set_resultants(tying);
     }
@@ -361,7 +360,7 @@ namespace Nacre
   };
 
   /**
-   * M of the samples' strains: sum_q of their interpolation to the points,
+   * M of the coefficients: sum_q of their interpolation to the points,
    * times H_n with area and weight there, @p stiffness.
    */
   FullMatrix<double>

@@ -30,7 +30,7 @@ namespace Nacre
   public:
     using Vector = Tensor<1, spacedim, Number>;
 
-    /** The samples e after the displacement @p u of the nodes; no forces. */
+    /** The strains e after the displacement @p u of the nodes; no forces. */
     template <typename Values>
     void
     reinit(const Values &values, const NodeVectors<Number> &u)
@@ -88,8 +88,8 @@ namespace Nacre
   };
 
   /**
-   * What a TiedGreenStrain contributes to tangents: the rows of the samples,
-   * and the stiffness of the forces,
+   * What a TiedGreenStrain contributes to tangents: the rows of the
+   * coefficients, and the stiffness of the forces,
    *
    *   sum_q n_q . d2E_q(v, w) = sum_k n_k^ab v,a . w,b.
    */
@@ -97,19 +97,19 @@ namespace Nacre
   {
   public:
     /**
-     * Fill the rows [sample][i] of de.
+     * Fill the rows [coefficient][i] of de.
      * @param dof its column i of a node and a component
      */
     template <typename Dof>
     void
-    fill_sample_rows(const MembraneTying           &tying,
-                     const ShapeTable              &tying_shapes,
-                     const TiedGreenStrain<double> &strain,
-                     const Dof                     &dof)
+    fill_rows(const MembraneTying           &tying,
+              const ShapeTable              &tying_shapes,
+              const TiedGreenStrain<double> &strain,
+              const Dof                     &dof)
     {
       const auto        &samples = tying.samples();
       const unsigned int n_nodes = tying_shapes.n_nodes();
-      sample_rows_.reinit(samples.size(), spacedim * n_nodes, true);
+      rows_.reinit(samples.size(), spacedim * n_nodes, true);
       for (unsigned int s = 0; s < samples.size(); ++s)
         {
           // direction . dE(N e_c), dE = (A_1 N,1, A_2 N,2, A_1 N,2 + A_2 N,1)
@@ -123,9 +123,10 @@ namespace Nacre
             {
               const auto &dN = tying_shapes.gradient(k, a);
               for (unsigned int c = 0; c < spacedim; ++c)
-                sample_rows_(s, dof(a, c)) = dN[0] * g_1[c] + dN[1] * g_2[c];
+                rows_(s, dof(a, c)) = dN[0] * g_1[c] + dN[1] * g_2[c];
             }
         }
+      tying.sum_rows(rows_);
     }
 
     /** Add @p factor times dE_v at the point @p q to @p row [i]. */
@@ -142,7 +143,7 @@ namespace Nacre
                     const TiedGreenStrain<double> &strain);
 
   private:
-    FullMatrix<double> sample_rows_;
+    FullMatrix<double> rows_;
     /** [2 k + alpha][a]: N,alpha, and n^alpha beta N,beta. */
     FullMatrix<double> gradient_rows_;
     FullMatrix<double> force_rows_;

@@ -9,10 +9,11 @@
 namespace Nacre
 {
   /**
-   * The samples of a tied membrane strain, and the forces that do work on it.
-   * Strains e of the samples give the strain T_q e at a point q of a cell or an
-   * edge (MembraneTying::weights); forces n[q] there are f = sum_q T_q^T n[q]
-   * of the samples, and resultants n_k^ab of the tying points k.
+   * The coefficients e of a tied membrane strain, which are its samples or sums
+   * of them, and the forces that do work on it. The strain at a point q of a
+   * cell or an edge is T_q e (MembraneTying::weights); forces n[q] there are
+   * f = sum_q T_q^T n[q] of the coefficients, and resultants n_k^ab of the
+   * tying points k.
    */
   template <typename Number>
   class TiedSamples
@@ -40,7 +41,7 @@ namespace Nacre
 
     /**
      * Add the membrane force @p n at the point @p q, area and weight included,
-     * to those of the samples; set_resultants() follows the last one.
+     * to those of the coefficients; set_resultants() follows the last one.
      */
     void
     add_point_force(const MembraneTying &tying,
@@ -52,30 +53,28 @@ namespace Nacre
           forces_[s] += weight * n[v];
     }
 
-    /** From the forces of the samples to those of the tying points. */
+    /**
+     * From the forces of the coefficients to those of the samples and of the
+     * tying points.
+     */
     void
     set_resultants(const MembraneTying &tying)
     {
       const auto &samples = tying.samples();
+      sample_forces_      = forces_;
+      tying.spread(sample_forces_);
       resultants_.assign(tying.points().size(), Voigt<Number>());
       for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int v = 0; v < 3; ++v)
           resultants_[samples[s].point][v] +=
-            samples[s].direction[v] * forces_[s];
-    }
-
-    /** Strain of the sample @p s (length^2). */
-    const Number &
-    strain(const unsigned int s) const
-    {
-      return strains_[s];
+            samples[s].direction[v] * sample_forces_[s];
     }
 
     /** Work conjugate of the strain of the sample @p s. */
     const Number &
     sample_force(const unsigned int s) const
     {
-      return forces_[s];
+      return sample_forces_[s];
     }
 
     /** Work conjugates n_k^ab of the strains of the tying point @p k, Voigt. */
@@ -96,6 +95,7 @@ namespace Nacre
       for (unsigned int s = 0; s < samples.size(); ++s)
         for (unsigned int v = 0; v < 3; ++v)
           strains_[s] += samples[s].direction[v] * strain[samples[s].point][v];
+      tying.sum(strains_);
     }
 
     /** Take the means of two states. */
@@ -127,9 +127,11 @@ namespace Nacre
         }
     }
 
-    /** By sample. */
+    /** By coefficient. */
     std::vector<Number> strains_;
     std::vector<Number> forces_;
+    /** By sample. */
+    std::vector<Number> sample_forces_;
     /** By tying point. */
     std::vector<Voigt<Number>> resultants_;
   };

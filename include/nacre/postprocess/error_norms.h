@@ -26,7 +26,8 @@ namespace Nacre
   /**
    * The exact solution enters as its interpolant of degree p + 2 on each cell,
    * so that its derivatives need no expressions of their own; the error of
-   * that is two orders smaller than u_h's. Collective.
+   * that is two orders smaller than u_h's. On parts of divided cells the
+   * polynomial of that degree comes from points of the part alone. Collective.
    */
   ErrorNorms
   compute_error_norms(const SolvedShell &shell);
