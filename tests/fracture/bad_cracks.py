@@ -51,16 +51,16 @@ case("intensity_finite", "K_I of tip (a, 0, 0)",
       "Constants": "a = 0.5, N = 1e-3, M = 1e-5"})
 
 
-def cut(name, quantity, expect, cuts=None, args=("--check",)):
-    case(name, quantity, expect, {"Cuts/Cuts": cuts} if cuts else {}, args,
-         CUT)
+def cut(name, quantity, expect, cuts=None, args=("--check",), remove=""):
+    settings = {"Cuts/Cuts": cuts, "Cuts/Remove": remove} if cuts else {}
+    case(name, quantity, expect, settings, args, CUT)
 
 
 cut("cut_unknown", "K_I of crck end", ["crck", "crack"])
 cut("cut_no_end", "K_I of crack", ["K_I of CUT begin", "of tip (x, y, z)"])
 cut("cut_closed", "energy release rate of crack end",
     ["'crack' is closed", "no tips"],
-    "crack: uv closed (-0.3, -0.2) (0.3, -0.2) (0, 0.3)")
+    "crack: uv closed (-0.3, -0.2) (0.3, -0.2) (0, 0.3)", remove="(0, 0, 0)")
 cut("cut_ends_outside", "kink angle of crack begin",
     ["the begin of the cut 'crack'", "doesn't lie inside"],
     "crack: uv (-1.1, -j) (i, j)")
@@ -72,7 +72,7 @@ cut("cut_turns", "K_T of crack end radii 0.05, 0.3",
     "crack: uv (-i, -j) (i - 0.1, j) (i, j)", ())
 cut("cut_turns_in_cell", "K_I of crack end",
     ["turns within the cell", "refine the mesh"],
-    "crack: uv (-i, -j) (i + 0.001, j + 0.001) (i + 0.002, j + 0.006)")
+    "crack: uv (-i, -j) (i + 0.006, j + 0.002) (i + 0.007, j + 0.01)")
 cut("cut_beside_tip", "K_I of crack end radii 0.05, 0.2",
     ["another tip", "'other'"],
     "crack: uv (-i, -j) (i, j); other: uv (i, j + 0.05) (i, 0.9)", ())
