@@ -29,7 +29,7 @@ for example
   --expect "eta == 5: abs(ratio - listed(.994, .999, .9998)) <= 2e-3"
 
 --compare-ranks N runs the file on N ranks too and compares all columns but the
-CPU seconds, memory, iterations, and what divides by a small error (rates,
+CPU seconds, memory, solver, iterations, and what divides by a small error (rates,
 effectivity) with those of the first run, to the relative --tolerance.
 --compare-set does so with a run of another value of a parameter.
 """
@@ -240,7 +240,7 @@ def compare(first, second, what, tolerance):
     """Whether the tables of two runs agree; prints the largest difference."""
     def skipped(name):
         return name.startswith("rate_") or re.fullmatch(
-            ".*_s|iterations|memory_gb|effectivity", name)
+            ".*_s|solver|iterations|memory_gb|effectivity", name)
 
     if len(first) != len(second):
         raise Failure(f"{len(first)} and {len(second)} rows")

@@ -4,7 +4,10 @@
 #include <nacre/discretization/discretization.h>
 #include <nacre/multigrid/vertex_patches.h>
 
+#include <deal.II/grid/cell_id.h>
+
 #include <algorithm>
+#include <set>
 
 namespace Nacre
 {
@@ -40,6 +43,36 @@ namespace Nacre
       unsigned int part;
       unsigned int vertex;
     };
+
+    /**
+     * The vertices of each family of cells, one of which is this rank's and
+     * holds a tip: all cells into which the tip's cell on the coarser mesh is
+     * refined.
+     */
+    std::set<std::set<unsigned int>>
+    families_at_tips(const Discretization &discretization)
+    {
+      std::set<CellId> cells;
+      for (const auto &tip : discretization.tips())
+        cells.insert(tip.cell);
+      std::set<std::set<unsigned int>> families;
+      if (cells.empty())
+        return families;
+      for (const auto &cell :
+           discretization.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned() && cell->level() > 0 &&
+            cells.count(cell->id()) > 0)
+          {
+            std::set<unsigned int> vertices;
+            const auto             parent = cell->parent();
+            for (unsigned int child = 0; child < parent->n_children(); ++child)
+              for (const unsigned int v :
+                   parent->child(child)->vertex_indices())
+                vertices.insert(parent->child(child)->vertex_index(v));
+            families.insert(vertices);
+          }
+      return families;
+    }
   } // namespace
 
 
@@ -59,8 +92,7 @@ namespace Nacre
         corners[parts[k].cell->vertex_index(v)].push_back({k, v});
 
     std::vector<bool>                    is_done(corners.size(), false);
-    std::vector<types::global_dof_index> part_dofs, patch, foreign;
-    const IndexSet &owned = discretization.locally_owned_dofs();
+    std::vector<types::global_dof_index> part_dofs, patch;
     for (const CellPart &first_part : parts)
       if (first_part.cell->is_locally_owned())
         for (const unsigned int v : first_part.cell->vertex_indices())
@@ -81,21 +113,40 @@ namespace Nacre
                 else
                   add_dofs(part, corner.vertex, part_dofs, patch);
               }
-            if (!is_mine)
-              continue;
-            std::sort(patch.begin(), patch.end());
-            patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
-            for (const auto i : patch)
-              if (!constraints.is_constrained(i))
-                {
-                  dofs.push_back(i);
-                  if (!owned.is_element(i))
-                    foreign.push_back(i);
-                }
-            if (dofs.size() > start.back())
-              start.push_back(dofs.size());
+            if (is_mine)
+              append(patch, constraints);
           }
+    for (const auto &vertices : families_at_tips(discretization))
+      {
+        patch.clear();
+        for (const unsigned int vertex : vertices)
+          for (const Corner &corner : corners[vertex])
+            {
+              discretization.get_dof_indices(parts[corner.part], part_dofs);
+              patch.insert(patch.end(), part_dofs.begin(), part_dofs.end());
+            }
+        append(patch, constraints);
+      }
+
+    std::vector<types::global_dof_index> foreign;
+    for (const auto i : dofs)
+      if (!discretization.locally_owned_dofs().is_element(i))
+        foreign.push_back(i);
     std::sort(foreign.begin(), foreign.end());
     foreign_dofs.add_indices(foreign.begin(), foreign.end());
+  }
+
+
+  void
+  VertexPatches::append(std::vector<types::global_dof_index> &patch,
+                        const AffineConstraints<double>      &constraints)
+  {
+    std::sort(patch.begin(), patch.end());
+    patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
+    for (const auto i : patch)
+      if (!constraints.is_constrained(i))
+        dofs.push_back(i);
+    if (dofs.size() > start.back())
+      start.push_back(dofs.size());
   }
 } // namespace Nacre

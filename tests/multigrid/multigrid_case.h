@@ -60,7 +60,8 @@ namespace MultigridTests
     std::unique_ptr<Discretization>
     discretize(const Element             &element,
                const unsigned int         n_refinements,
-               const std::vector<Marker> &markers = {}) const
+               const std::vector<Marker> &markers = {},
+               const Cuts                &cuts    = {}) const
     {
       auto mesh =
         model.midsurface.create_triangulation(MPI_COMM_WORLD,
@@ -74,13 +75,11 @@ namespace MultigridTests
               cell->set_refine_flag();
           mesh->execute_coarsening_and_refinement();
         }
-      return std::make_unique<Discretization>(
-        std::move(mesh),
-        [this](const auto &cell, const auto &unit) {
-          return model.midsurface.position(cell, unit);
-        },
-        element,
-        0);
+      return std::make_unique<Discretization>(std::move(mesh),
+                                              model.midsurface,
+                                              element,
+                                              0,
+                                              cuts);
     }
 
     LinearElasticSection section;

@@ -41,6 +41,11 @@ namespace Nacre
    * The unconstrained dofs of overlapping patches, one for each vertex. Each
    * unconstrained dof is in some patch.
    *
+   * A crack is shorter on the coarser mesh, where it closes at the edge by which
+   * it enters its last cell. That takes no vertex' patch back, so that each tip
+   * has a further patch: all dofs of that cell's children and of the cells
+   * around them.
+   *
    * A patch belongs to the lowest rank that owns one of its cells, and is
    * listed in the order of the cells.
    */
@@ -62,6 +67,12 @@ namespace Nacre
     std::vector<types::global_dof_index> dofs;
     /** The dofs of other ranks among them. */
     IndexSet foreign_dofs;
+
+  private:
+    /** Append a patch, sorted and without the constrained dofs. */
+    void
+    append(std::vector<types::global_dof_index> &patch,
+           const AffineConstraints<double>      &constraints);
   };
 } // namespace Nacre
 
