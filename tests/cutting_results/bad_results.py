@@ -26,9 +26,6 @@ case("opening_direction", ["'a'", "direction 'across'"],
 case("lip_point", ["'a'", "lies on two parts of the surface",
                    "Choose a point further inside"],
      {"Quantities/Quantities": "a = displacement z at (1, 0.37, 0)"}, [])
-case("refinement_of_cuts",
-     ["Adaptive refinement/Cycles", "cuts (Cuts/Cuts)", "'Max dofs = 1'"],
-     {"Adaptive refinement/Cycles": "1"})
 case("reference_assembly_of_cuts",
      ["Discretization/Assembly", "cuts (Cuts/Cuts)", "choose 'fast'"],
      {"Discretization/Assembly": "reference"})

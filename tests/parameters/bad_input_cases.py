@@ -150,6 +150,8 @@ for name, value in (("zero", "0"), ("negative", "-0.5"), ("above_one", "1.5")):
 case("adaptive_goal_unknown",
      ["Adaptive refinement/Goal", "wmax", "w, U"],
      dict(GOAL, **{"Adaptive refinement/Goal": "wmax"}))
+case("adaptive_tips", ["Adaptive refinement/Cells at tips", "no cuts"],
+     dict(CYCLES, **{"Adaptive refinement/Cells at tips": "0.1"}))
 case("adaptive_motion", ["Adaptive refinement/Cycles", "keeps its mesh"],
      dict(CYCLES, **{"Analysis/Type": "dynamic"}))
 case("adaptive_path_goal", ["Adaptive refinement/Estimator", "linear analyses"],
