@@ -6,7 +6,8 @@
   benchmarks/cracks.py [NAME...]   the tables, in Markdown
   benchmarks/cracks.py --list      their names
 
-NAME: plates, sizes, inclined, difference, cylinders. The meshes are made for
+NAME: plates, sizes, inclined, difference, cylinders, and with cuts: cut_plates,
+cut_ends, cut_inclined, cut_difference, cut_cylinders. The meshes are made for
 each case; prm/fracture/ has the rest.
 """
 
@@ -25,7 +26,7 @@ sys.path.insert(0, str(PROJECT / "scripts"))
 import make_meshes  # noqa: E402  (found by the line above)
 
 E, NU, H = 1e6, 0.3, 0.1
-NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U"
+NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U", "kink"
 # kind, a, H, F in tension, F in bending: doc/benchmarks/cracked_plates.md
 PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
           ("centre", .5, 1, 1.3337122, 1.1323155),
@@ -42,6 +43,18 @@ CYLINDERS = [(100, .5, 1.056193, .084205, 1.116651),
              (1000, .5, 1.056420, .086446, 1.117085),
              (1000, 1, 1.198208, .194406, 1.440658),
              (1000, 2, 1.613426, .337019, 2.617783)]
+AXIAL_CUTS = [(True, *row) for row in CYLINDERS]
+CIRCUMFERENTIAL_CUTS = [(False, 100, .5, 1.012960, .059984, 1.026427),
+                        (False, 100, 1, 1.050086, .141684, 1.105134),
+                        (False, 1000, .5, 1.012503, .061616, 1.025559),
+                        (False, 1000, 1, 1.048175, .143436, 1.101265),
+                        (False, 1000, 2, 1.165900, .212118, 1.365188),
+                        (False, 10000, 1, 1.047889, .143614, 1.100679)]
+# Dead loads: Pi = -U; ends that are held: Pi = U
+LOADS = [("tension", (1, 0), 1, {}), ("bending", (0, 1), 1, {}),
+         ("ends turned by 0.5", (0, 0), -1, None)]
+TURNED = {"Discretization/Kinematics": "finite", "Analysis/Type": "static",
+          "Study/Degrees": "2"}
 
 
 class Nacre:
@@ -49,15 +62,16 @@ class Nacre:
         self.program, self.folder = program, folder
 
     def run(self, prm, mesh, settings):
-        """The last row of the table, of a mesh of make_meshes."""
-        path = pathlib.Path(self.folder, "mesh.msh")
-        path.write_text("\n".join(make_meshes.gmsh_2(mesh)) + "\n",
-                        encoding="utf-8")
+        """The last row of the table, of a mesh of make_meshes or none."""
+        if mesh:
+            path = pathlib.Path(self.folder, "mesh.msh")
+            path.write_text("\n".join(make_meshes.gmsh_2(mesh)) + "\n",
+                            encoding="utf-8")
+            settings = {"Mid-surface/file/File name": str(path), **settings}
         command = [str(self.program), str(PROJECT / "prm/fracture" / prm)]
         for key, value in {"Study/Output folder": self.folder,
                            "Study/Name": "cracks", "Study/Write VTU": "false",
                            "Study/Degrees": "3", "Study/Refinements": "0",
-                           "Mid-surface/file/File name": str(path),
                            **settings}.items():
             command += ["--set", f"{key}={value}"]
         environment = {"OMP_NUM_THREADS": "1", **os.environ}
@@ -180,15 +194,10 @@ def difference(nacre):
         return make_meshes.cracked((0., 1.), 1., [a], a / 15, 1.3,
                                    position=position)
 
-    # Dead loads: Pi = -U; ends that are held: Pi = U
-    turned = {"Boundary conditions/Edges":
+    turned = {**TURNED, "Boundary conditions/Edges":
               "left: symmetry; top, bottom: rotation = 0.5",
-              "Boundary conditions/Points": "(1, 0, 0): y = 0, z = 0",
-              "Discretization/Kinematics": "finite", "Analysis/Type": "static",
-              "Study/Degrees": "2"}
-    for name, load, sign, more in (("tension", (1, 0), 1, {}),
-                                   ("bending", (0, 1), 1, {}),
-                                   ("ends turned by 0.5", (0, 0), -1, turned)):
+              "Boundary conditions/Points": "(1, 0, 0): y = 0, z = 0"}
+    for name, load, sign, more in LOADS[:2] + [(*LOADS[2][:3], turned)]:
         def solve(end, load=load, more=more):
             return plate(nacre, "centre", a, 1., None, load, moved(end), end,
                          (), more)
@@ -221,8 +230,192 @@ def around_x(u, v):
     return u, math.sin(v), math.cos(v)
 
 
+def grading(place, n, size, cells, power=3):
+    """Lines of n cells from 0 to 1, so many cells before the place; there they
+    have the size."""
+    at = cells / n
+    slope = size * n
+    before = (place - slope * at) / at**power
+    behind = (1 - place - slope * (1 - at)) / (1 - at)**power
+    return (f"{place!r} + {slope!r}*(s - {at!r}) + if(s < {at!r}, "
+            f"-{before!r}*({at!r} - s)^{power}, "
+            f"{behind!r}*(s - {at!r})^{power})")
+
+
+def to_middle(n, size, power=3):
+    """Lines of n cells from 0 to 1, that in the middle has the size."""
+    slope = size * n
+    return (f"0.5 + if(s < 0.5, -0.5, 0.5)*({slope!r}*abs(2*s - 1) + "
+            f"{1 - slope!r}*abs(2*s - 1)^{power})")
+
+
+def cut_plate(nacre, kind, a, height, load, cells=(24, 20, 51), mesh_a=None,
+              size=None, radii=None, more=None):
+    """Of a plate of the half width 1 that is cut from the left up to a, through
+    cells of a/50 at the tip; cells: before and behind it, and across."""
+    before, behind, across = cells
+    n = before + behind
+    mesh_a, size = mesh_a or a, size or a / 50
+    settings = {
+        "Constants": f"a = {a!r}",
+        "Mid-surface/Subdivisions": f"{n}, {across}",
+        "Mid-surface/Grading u": grading(mesh_a, n, size, before),
+        "Mid-surface/Grading v": to_middle(across, size / height / 2),
+        "Mid-surface/expression/Range u": "0, 1",
+        "Mid-surface/expression/Range v": f"{-height}, {height}",
+        "Cuts/Cuts": "crack: uv (-1, 0) (a, 0)",
+        "Section/Young's modulus": E, "Section/Poisson's ratio": NU,
+        "Section/Thickness": H,
+        "Loads/Edge forces": f"v=1: 0, {load[0]}, 0; v=0: 0, -{load[0]}, 0",
+        "Loads/Edge moments": f"v=0, v=1: {load[1]}",
+        "Boundary conditions/Edges": "u=0: symmetry",
+        "Boundary conditions/Points":
+            f"(1, 0.01, 0): y = 0, z = 0; (1, {height}, 0): z = 0",
+        "Quantities/Quantities": of_cut(
+            radii or f"{0.05 * a}, {0.9 * min(a, 1 - a)}", ("K_I", "K_M"))}
+    if kind == "edge":
+        settings["Boundary conditions/Edges"] = ""
+        settings["Boundary conditions/Points"] = (
+            f"(1, 0.01, 0): x = 0, y = 0; (1, {height}, 0): x = 0, z = 0; "
+            f"(1, -{height}, 0): z = 0; (0, {height}, 0): z = 0")
+    return nacre.run("inclined_cut.prm", None, {**settings, **(more or {})})
+
+
+def of_cut(radii, names):
+    of = "of crack end" + (f" radii {radii}" if radii else "")
+    return "; ".join([f"{name} = {name} {of}" for name in names] +
+                     [f"G = energy release rate {of}", "U = energy"])
+
+
+def cut_factors(*arguments, **more):
+    """As factors()."""
+    root = math.sqrt(math.pi * arguments[2])
+    found = cut_plate(*arguments, (1, 0), **more)
+    result = [found["K_I"] * H / root, math.sqrt(found["G"] * E * H) / root]
+    stiffness = E * H**3 / (12 * (1 - NU**2)) * (1 - NU) * (3 + NU)
+    found = cut_plate(*arguments, (0, 1), **more)
+    return result + [found["K_M"] / root,
+                     math.sqrt(found["G"] * stiffness) / root]
+
+
+def cut_plates(nacre):
+    head("crack", "a/W", "H/W", "tension", "from K_I", "from G", "bending",
+         "from K_M", "from G")
+    for kind, a, height, tension, bending in PLATES:
+        t_k, t_g, b_k, b_g = cut_factors(nacre, kind, a, height)
+        line(kind, a, height, tension or "", compared(t_k, tension),
+             compared(t_g, tension), bending or "", compared(b_k, bending),
+             compared(b_g, bending))
+
+
+def cut_ends(nacre):
+    """Ends within a cell of a/50, by shares of it."""
+    head("end of the cut", "tension from K_I", "from G",
+         "bending from K_M", "from G")
+    a = .5
+    for share in 0., .25, .5, .75:
+        t_k, t_g, b_k, b_g = cut_factors(nacre, "centre", a, 1,
+                                         mesh_a=a - share * a / 50)
+        line(share, compared(t_k, 1.3337122), compared(t_g, 1.3337122),
+             compared(b_k, 1.1323155), compared(b_g, 1.1323155))
+
+
+def cut_inclined(nacre):
+    """The infinite plate, its displacements prescribed around."""
+    head("angle", "cells", "K_I", "exact", "K_II", "exact", "kink", "exact")
+    text = (PROJECT / "prm/fracture/inclined_cut.prm").read_text(
+        encoding="utf-8")
+    constants = " ".join(text.split("set Constants = ")[1].split("\n\n")[0]
+                         .replace("\\\n", "").split())
+    for degrees in 30, 45, 60:
+        beta = math.radians(degrees)
+        n, t = math.cos(beta)**2, math.sin(beta) * math.cos(beta)
+        kink = 2 * math.degrees(math.atan(
+            (n - math.sqrt(n * n + 8 * t * t)) / (4 * t)))
+        for level in 0, 1, 2:
+            found = nacre.run("inclined_cut.prm", None, {
+                "Constants": constants.replace("pi/6", repr(beta)),
+                "Study/Refinements": level})
+            root = math.sqrt(math.pi * .5)
+            line(degrees, 400 * 4**level, compared(found["K_I"] / root, n),
+                 f"{n:.6f}", compared(found["K_II"] / root, t), f"{t:.6f}",
+                 f"{found['kink']:.3f}", f"{kink:.3f}")
+
+
+def cut_difference(nacre):
+    """As difference(), the lines of the mesh moved with the tip."""
+    head("load", "G", "-dPi/da", "difference")
+    a, step = .52, .002
+    turned = {**TURNED, "Boundary conditions/Edges":
+              "u=0: symmetry; v=0, v=1: rotation = 0.5",
+              "Boundary conditions/Points": "(1, 0.01, 0): y = 0, z = 0",
+              "Loads/Edge forces": "", "Loads/Edge moments": "",
+              "Quantities/Quantities": of_cut(f"{.05 * a}, {.9 * (1 - a)}", ())}
+    for name, load, sign, more in LOADS[:2] + [(*LOADS[2][:3], turned)]:
+        def solve(end, load=load, more=more):
+            return cut_plate(nacre, "centre", end, 1., load, more=more)
+
+        slope = (solve(a + step)["U"] - solve(a - step)["U"]) / (2 * step)
+        G = solve(a)["G"]
+        line(name, f"{G:.6g}", f"{sign * slope:.6g}",
+             f"{100 * (G / (sign * slope) - 1):+.2f} %")
+
+
+def cut_cylinder(nacre, axial, ratio, shell):
+    """A_m, A_b, g of a cylinder under a pressure, or of one that is pulled."""
+    h = 1 / ratio
+    a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
+    # What a crack around the axis disturbs reaches far along it.
+    far = min(16 * a, 1.2) if axial else min(64 * a, 1.5)
+    before, behind, across = (14, 24, 45) if axial else (14, 30, 57)
+    power = 3 if axial else 4
+    n = before + behind
+    settings = {
+        "Constants": f"a = {a!r}, h0 = {h!r}",
+        "Mid-surface/Subdivisions": f"{n}, {across}",
+        "Mid-surface/Grading u":
+            grading(a / far, n, a / 20 / far, before, power),
+        "Mid-surface/Grading v": to_middle(across, a / 20 / far / 2, power),
+        "Mid-surface/expression/Position":
+            "u, sin(v), cos(v)" if axial else "-v, sin(u), cos(u)",
+        "Mid-surface/expression/Range u": f"0, {far!r}",
+        "Mid-surface/expression/Range v": f"{-far!r}, {far!r}",
+        "Cuts/Cuts": f"crack: uv ({-far!r}, 0) (a, 0)",
+        "Section/Young's modulus": 1e3, "Section/Poisson's ratio": NU,
+        "Quantities/Quantities":
+            of_cut(f"{.1 * a}, {.5 * a}", ("K_I", "K_M"))}
+    # The uniform state is that of a membrane.
+    if axial:
+        settings.update({
+            "Loads/Pressure": "h0", "Boundary conditions/Points": "",
+            "Boundary conditions/Edges": "u=0, v=0, v=1: symmetry"})
+    else:
+        settings.update({
+            "Loads/Edge forces": "v=0: h0, 0, 0; v=1: -h0, 0, 0",
+            "Boundary conditions/Edges": "u=0, u=1: symmetry",
+            "Boundary conditions/Points":
+                f"(0.001, {math.sin(far)!r}, {math.cos(far)!r}): x = 0"})
+    found = nacre.run("inclined_cut.prm", None, settings)
+    root = math.sqrt(math.pi * a)
+    return (found["K_I"] / root, 6 * found["K_M"] / (h * h * root),
+            found["G"] * 1e3 / (h * math.pi * a))
+
+
+def cut_cylinders(nacre):
+    head("crack", "R/h", "lambda", "A_m", "Nacre", "A_b", "Nacre", "g",
+         "Nacre")
+    for axial, ratio, shell, *references in AXIAL_CUTS + CIRCUMFERENTIAL_CUTS:
+        cells = []
+        for reference, value in zip(references, cut_cylinder(
+                nacre, axial, ratio, shell)):
+            cells += [reference, compared(value, reference)]
+        line("axial" if axial else "around", ratio, shell, *cells)
+
+
 TABLES = {table.__name__: table
-          for table in (plates, sizes, inclined, difference, cylinders)}
+          for table in (plates, sizes, inclined, difference, cylinders,
+                        cut_plates, cut_ends, cut_inclined, cut_difference,
+                        cut_cylinders)}
 
 
 def main():

@@ -78,11 +78,12 @@ namespace Nacre
     const double nu = plate.poissons_ratio, h = plate.thickness;
     const double share   = (5. + 3. * nu) / (12. + 4. * nu);
     const auto   at_face = [&](const double sign) {
-      const double per_moment = sign * 6. / (h * h);
-      HoopStress   result = maximum({0.75 * K_I + share * per_moment * K_M,
-                                     0.25 * K_I + (1. - share) * per_moment * K_M,
-                                     -0.75 * K_II - share * per_moment * K_T});
-      result.height       = 0.5 * sign * h;
+      const double bending = sign * 6. / (h * h) * K_M;
+      const double twist   = sign * 6. / (h * h) * K_T;
+      HoopStress   result  = maximum({0.75 * K_I + share * bending,
+                                      0.25 * K_I + (1. - share) * bending,
+                                      -0.75 * K_II - share * twist});
+      result.height        = 0.5 * sign * h;
       return result;
     };
     const HoopStress upper = at_face(1.), lower = at_face(-1.);

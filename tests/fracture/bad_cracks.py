@@ -11,13 +11,15 @@ BASE = (FOLDER / "cracked_plate.prm").read_text(encoding="utf-8").replace(
     "../meshes/cracked_plate.msh", str(MESH)).replace("2, 3", "2").replace(
     "0, 1", "0")
 QUANTITIES = "Quantities/Quantities"
+CUT = (FOLDER / "inclined_cut.prm").read_text(encoding="utf-8").replace(
+    "0, 1\nend", "0\nend").replace("Degrees     = 3", "Degrees     = 2")
 CASES = {}
 
 
-def case(name, quantity, expect, settings=None, args=()):
+def case(name, quantity, expect, settings=None, args=(), prm=BASE):
     assert name not in CASES, name
     CASES[name] = dict(expect=[QUANTITIES, "'q'", *expect], change=None,
-                       prm=BASE, args=list(args), folder={}, code=1,
+                       prm=prm, args=list(args), folder={}, code=1,
                        settings={QUANTITIES: f"q = {quantity}",
                                  **(settings or {})})
 
@@ -47,3 +49,31 @@ case("intensity_finite", "K_I of tip (a, 0, 0)",
      ["Kinematics = linear", "energy release rate is known"],
      {"Discretization/Kinematics": "finite", "Analysis/Type": "static",
       "Constants": "a = 0.5, N = 1e-3, M = 1e-5"})
+
+
+def cut(name, quantity, expect, cuts=None, args=("--check",), remove=""):
+    settings = {"Cuts/Cuts": cuts, "Cuts/Remove": remove} if cuts else {}
+    case(name, quantity, expect, settings, args, CUT)
+
+
+cut("cut_unknown", "K_I of crck end", ["crck", "crack"])
+cut("cut_closed", "energy release rate of crack end",
+    ["'crack' is closed", "no tips"],
+    "crack: uv closed (-0.3, -0.2) (0.3, -0.2) (0, 0.3)", remove="(0, 0, 0)")
+cut("cut_ends_outside", "kink angle of crack begin",
+    ["the begin of the cut 'crack'", "doesn't lie inside"],
+    "crack: uv (-1.1, -j) (i, j)")
+cut("cut_ends_on_cut", "K_M of crack end",
+    ["the end of the cut 'crack'", "lies on another cut"],
+    "crack: uv (-i, -j) (i, j); other: uv (i - 0.2, j) (i + 0.2, j)")
+cut("cut_beside_cut", "K_I of crack end radii 0.05, 0.2", ["another cut"],
+    "crack: uv (-i, -j) (i, j); other: uv (-2, j + 0.05) (2, j + 0.05)", ())
+cut("cut_turns", "K_T of crack end radii 0.05, 0.3",
+    ["the crack turns", "smaller radii"],
+    "crack: uv (-i, -j) (i - 0.1, j) (i, j)", ())
+cut("cut_turns_in_cell", "K_I of crack end",
+    ["turns within the cell", "refine the mesh"],
+    "crack: uv (-i, -j) (i + 0.006, j + 0.002) (i + 0.007, j + 0.01)")
+cut("cut_beside_tip", "K_I of crack end radii 0.05, 0.2",
+    ["another tip", "'other'"],
+    "crack: uv (-i, -j) (i, j); other: uv (i, j + 0.05) (i, 0.9)", ())

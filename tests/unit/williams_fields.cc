@@ -5,6 +5,7 @@
 // intensities, and the energy that they release, by an integral over a domain.
 
 #include "unit_test.h"
+#include <nacre/mechanics/hoop_stress.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/crack_extension.h>
 
@@ -289,6 +290,55 @@ BOOST_AUTO_TEST_CASE(release_rates)
                                (G + unit_release_rate(other, plate));
             BOOST_TEST(std::abs(sum - 1.) < 1e-8);
           }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(hoop_stress)
+{
+  // Membrane forces alone: the closed form; nothing pulled: nothing
+  for (const double K_II : {-2., -0.1, 1e-3, 0.7, 5.})
+    {
+      const double angle =
+        largest_hoop_stress({{1., K_II, 0., 0.}}, plate).angle;
+      const double root = std::sqrt(1. + 8. * K_II * K_II);
+      BOOST_TEST(std::abs(std::tan(angle / 2.) - (1. - root) / (4. * K_II)) <
+                 1e-12);
+    }
+  for (const double K_I : {0., -1.})
+    {
+      const auto none = largest_hoop_stress({{K_I, 0., 0., 0.}}, plate);
+      BOOST_TEST(none.angle == 0.);
+      BOOST_TEST(none.intensity == 0.);
+    }
+
+  // Beside the stresses of the fields, at heights and angles
+  const double h = plate.thickness, b = h * h / 6.;
+  for (const std::array<double, 4> &K :
+       {std::array<double, 4>{{1., 0.3, 0., 0.}},
+        std::array<double, 4>{{0., 0., b, 0.4 * b}},
+        std::array<double, 4>{{0.2, -1., -b, 0.}},
+        std::array<double, 4>{{-0.5, 0.1, 0.3 * b, -b}}})
+    {
+      const auto stress = [&](const double theta, const double z) {
+        const double c = std::cos(theta), s = std::sin(theta);
+        double       sum = 0.;
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            const auto [n, m] =
+              resultants(unit_williams_field(modes[k], plate), 1., theta);
+            const auto sigma = n / h + 12. * z / (h * h * h) * m;
+            sum += K[k] * (sigma[0] * s * s + sigma[1] * c * c -
+                           2. * sigma[2] * s * c);
+          }
+        return std::sqrt(2. * numbers::PI) * sum;
+      };
+      const auto found = largest_hoop_stress(K, plate);
+      BOOST_TEST(std::abs(stress(found.angle, found.height) / found.intensity -
+                          1.) < 1e-12);
+      for (int i = -99; i < 100; ++i)
+        for (const double z : {-h / 2., 0., h / 4., h / 2.})
+          BOOST_TEST(stress(numbers::PI * i / 100., z) <
+                     (1. + 1e-12) * found.intensity);
     }
 }
 

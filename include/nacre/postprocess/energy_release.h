@@ -36,9 +36,9 @@ namespace Nacre
     /**
      * Throws on all ranks if between the tip and the plateau's end there is
      * anything but one smooth sheet with a straight crack: other edges, cuts
-     * and tips, the crack's other end, creases, other regions, supports or forces at points,
-     * supports or moments at the lips; and in dynamics, of modes and with a
-     * foundation. Collective.
+     * and tips, the crack's other end, creases, other regions, supports or
+     * forces at points, supports or moments at the lips; and in dynamics, of
+     * modes and with a foundation. Collective.
      */
     EnergyRelease(const SolvedShell  &shell,
                   const CrackTip     &tip,
