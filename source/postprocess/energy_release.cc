@@ -361,7 +361,7 @@ namespace Nacre
     });
     // Both lips begin where nothing moves and end at the tip, which moves by 1.
     length = Utilities::MPI::sum(length, shell_.discretization.communicator());
-    AssertThrow(std::abs(length - 2.) < straight,
+    AssertThrow(std::abs(length - 2.) < crooked,
                 ExcMessage(where_ + "the crack has its other end, or its lips "
                                     "are far from straight; choose smaller "
                                     "radii."));

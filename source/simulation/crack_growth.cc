@@ -153,9 +153,8 @@ namespace Nacre
     const double least = 0.95 * (tip.step - crack.closed);
     const double room =
       find_room(shell.discretization, crack, tip.end.cut, least);
-    const double     outer = std::min(0.9 * room,
-                                  std::max(least,
-                                           widest_ring * crack.cell_size));
+    const double outer =
+      std::min(0.9 * room, std::max(least, widest_ring * crack.cell_size));
     const TipRelease release =
       compute_tip_release(shell, crack, CrackPlateau{outer / 3., outer}, where);
     AssertThrow(release.has_intensities ||

@@ -32,15 +32,20 @@ namespace
       , element(element)
       , cuts(without_extension(curves))
     {
-      discretize(parameters.model.midsurface.create_triangulation(
-        MPI_COMM_WORLD, element.reference_cell(), 0));
+      discretize(
+        parameters.model.midsurface
+          .create_triangulation(MPI_COMM_WORLD, element.reference_cell(), 0));
     }
 
     void
     discretize(std::unique_ptr<parallel::TriangulationBase<2, 3>> mesh)
     {
-      discretization = std::make_unique<Discretization>(
-        std::move(mesh), parameters.model.midsurface, element, 0, cuts);
+      discretization =
+        std::make_unique<Discretization>(std::move(mesh),
+                                         parameters.model.midsurface,
+                                         element,
+                                         0,
+                                         cuts);
     }
 
     CutTrace::Tip
@@ -91,7 +96,7 @@ namespace
                                          parameters.model.loads,
                                          MembraneStrain::tied,
                                          {}));
-      const auto     ghosted = with_ghosts(u);
+      const auto     ghosted  = with_ghosts(u);
       auto           energies = assembly.energies(ghosted);
       auto           product  = u;
       MassTerms(*discretization).vmult(product, ghosted);
@@ -109,11 +114,11 @@ namespace
   void
   test_moment(const Element &element)
   {
-    GrowingShell shell(surface_text("u, v, 0", 6, 4),
+    GrowingShell                         shell(surface_text("u, v, 0", 6, 4),
                        element,
                        {line("tear", {{-.1, .43}, {.41, .47}}),
-                        line("other", {{.73, -.1}, {.71, .31}})});
-    auto         u = zero_vector(*shell.discretization);
+                                                line("other", {{.73, -.1}, {.71, .31}})});
+    auto                                 u = zero_vector(*shell.discretization);
     std::vector<types::global_dof_index> dofs;
     for (const CellPart &part : shell.discretization->owned_parts())
       {

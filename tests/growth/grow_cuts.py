@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Let cuts grow and check the tables of their growth.
+
+  grow_cuts.py NACRE CASE    run a case
+  grow_cuts.py --list        their names
+
+A case has a parameter file of prm/cutting, parameters to set, numbers of
+ranks, and a function that checks the rows, dictionaries of the columns of
+<name>_growth.csv.
+"""
+import argparse
+import csv
+import math
+import pathlib
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+PRM = HERE.parents[1] / "prm/cutting"
+sys.path.insert(0, str(HERE.parent))
+import run_study  # noqa: E402  (found by the line above)
+
+
+def check(condition, text):
+    print(text)
+    if not condition:
+        raise run_study.Failure(text)
+
+
+def check_near(name, value, expected, tolerance):
+    check(abs(value - expected) <= tolerance,
+          f"{name}: {value:.8g}, expected {expected:.8g} +- {tolerance:g}")
+
+
+def inclined(rows):
+    """V13: the tips; each state is critical, and its G is what is released."""
+    check_near("rows", len(rows), 6, 0)
+    for tip, x, y in (("crack_begin", -.63605, -.12470),
+                      ("crack_end", .65803, .10987)):
+        check_near(f"x of {tip}", rows[-1][f"x_{tip}"], x, .01)
+        check_near(f"y of {tip}", rows[-1][f"y_{tip}"], y, .01)
+    for row in rows:
+        check_near("larger G over Gc h", 20. * max(row["G_crack_begin"],
+                                                   row["G_crack_end"]),
+                   1., 1e-9)
+    # Both tips advance: dU/da of fixed loads, the crack's length closed up
+    length = [row["length_crack"] - row["closed_crack_begin"] -
+              row["closed_crack_end"] for row in rows]
+    for before, row, after in zip((1, 2, 3), rows[2:], (3, 4, 5)):
+        rise = (rows[after]["U"] / rows[after]["load_factor"]**2 -
+                rows[before]["U"] / rows[before]["load_factor"]**2)
+        released = rise / (length[after] - length[before])
+        check_near("dU/da at unit loads over G",
+                   released * 2. * row["load_factor"]**2 /
+                   (row["G_crack_begin"] + row["G_crack_end"]), 1., .06)
+
+
+# G E/(h sigma^2 pi a) of an axial crack of the half length a, by lambda =
+# (12 (1 - nu^2))^(1/4) a/(R h)^(1/2), in a shallow shell
+FOLIAS = {1: 1.440594, 1.5: 1.945582, 2: 2.617575, 3: 4.407315, 4: 6.707337,
+          6: 12.589003, 8: 19.950275}
+
+
+def folias(place):
+    """By the parabola through the next three values."""
+    near = sorted(sorted(FOLIAS, key=lambda key: abs(key - place))[:3])
+    return sum(FOLIAS[i] * math.prod((place - j) / (i - j)
+                                     for j in near if j != i) for i in near)
+
+
+def tube(rows):
+    """The pressure falls as Folias' crack says."""
+    check_near("rows", len(rows), 4, 0)
+    for row in rows:
+        a = (row["length_crack"] - row["closed_crack_begin"] -
+             row["closed_crack_end"]) / 2.
+        place = (12. * .91)**.25 * a / .1
+        sigma = 100. * row["load_factor"]
+        g = row["G_crack_end"] * 1e9 / (.01 * sigma**2 * math.pi * a)
+        check_near(f"G at lambda = {place:.3g}", g / folias(place), 1., .08)
+        check(abs(row["angle_crack_end"]) < 1., "straight")
+    factors = [row["load_factor"] for row in rows]
+    check(sorted(factors, reverse=True) == factors, "the pressure falls")
+
+
+def trouser(rows):
+    """A step releases between G before it and G after it, at held legs."""
+    n_steps = 0
+    for before, after in zip(rows, rows[1:]):
+        if before["step"] == after["step"]:
+            continue
+        n_steps += 1
+        check_near("time", after["time"], before["time"], 0)
+        released = (before["U"] - after["U"]) / (after["length_tear"] -
+                                                 before["length_tear"])
+        check(after["G_tear_end"] < released < before["G_tear_end"],
+              f"{after['G_tear_end']:.5g} < {released:.5g} < "
+              f"{before['G_tear_end']:.5g}")
+        check(before["G_tear_end"] >= 66.7 * .02, "above the toughness")
+    for row, other in zip(rows, rows[1:]):
+        check(row["time"] == other["time"] or row["G_tear_end"] < 66.7 * .02,
+              "the time goes on below the toughness only")
+    check(n_steps >= 2, f"{n_steps} steps")
+    # Rivlin and Thomas; the legs are short, and the mesh is coarse
+    check_near("G/(2 F)", before["G_tear_end"] / (2. * before["F"]), 1., .06)
+
+
+def knife(rows):
+    """A tip is where it is told to be, whatever the shell does."""
+    check_near("rows", len(rows), 6, 0)
+    for row in rows:
+        check_near("length", row["length_tear"], 2. + .25 * row["step"], 1e-6)
+        length = 1.05 * row["time"]
+        check(.25 * row["step"] <= length + 1e-9, "not ahead of the knife")
+    check_near("the last row's lag", 1.05 - .25 * rows[-1]["step"], .05, 1e-9)
+
+
+UNIT = {"Study/Degrees": "2"}
+CASES = {
+    "inclined": ("inclined_crack.prm", UNIT, (1,), inclined),
+    "tube": ("cracked_tube.prm", {**UNIT, "Growth/Maximum steps": "3"}, (1,),
+             tube),
+    "trouser": ("trouser_tear.prm", {**UNIT, "Analysis/Time step": "0.07",
+                                     "Analysis/End time": "0.77"},
+                (1,), trouser),
+    "knife": ("trouser_tear.prm", {
+        **UNIT, "Discretization/Kinematics": "finite",
+        "Mid-surface/Subdivisions": "20, 4", "Constants":
+        "L = 5, b = 1, a = 2, d = 0.3, Gc = 1", "Growth/Toughness": "",
+        "Growth/Criterion": "prescribed", "Growth/Length": "1.05*t",
+        "Growth/Step": "0.25", "Analysis/Time step": "0.5"}, (1, 2), knife),
+}
+
+
+def read_table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return [{name: float(value) for name, value in row.items()}
+                for row in csv.DictReader(file)]
+
+
+def run_case(nacre, file, parameters, ranks, check_rows):
+    settings = {"Study/Write VTU": "false", **parameters}
+    arguments = argparse.Namespace(
+        nacre=nacre, prm=PRM / file, timeout=120,
+        overrides=[f"{name}={value}" for name, value in settings.items()])
+    first = None
+    for n_ranks in ranks:
+        with tempfile.TemporaryDirectory() as folder:
+            run_study.run_nacre(arguments, n_ranks, folder)
+            rows = read_table(pathlib.Path(folder, "output/study_growth.csv"))
+        check_rows(rows)
+        first = first or rows
+        for row, other in zip(first, rows):
+            for name in ("load_factor", "U" if "U" in row else "o"):
+                check_near(f"{name} on {n_ranks} ranks", other[name],
+                           row[name], 1e-7 * abs(row[name]))
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        print("\n".join(CASES))
+        return 0
+    if len(sys.argv) != 3 or sys.argv[2] not in CASES:
+        sys.exit(__doc__)
+    try:
+        run_case(sys.argv[1], *CASES[sys.argv[2]])
+    except run_study.Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
