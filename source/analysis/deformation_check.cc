@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/deformation_check.h>
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/mechanics/corotational_strain.h>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/orientation.h>
-#include <nacre/discretization/shell_values.h>
+#include <nacre/discretization/shell_edge_values.h>
 
 namespace Nacre
 {

@@ -5,7 +5,6 @@
 #include <nacre/discretization/part_enrichment.h>
 #include <nacre/discretization/part_quadrature.h>
 #include <nacre/discretization/plane_geometry.h>
-#include <nacre/discretization/shape_table.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -15,11 +14,15 @@ namespace Nacre
 {
   void
   PartEnrichment::evaluate(const ShapeTable              &shapes,
+                           const GeometryTable::Values   &geometry,
                            const unsigned int             q,
                            const Point<dim>              &unit,
-                           const FieldDerivatives        &surface,
                            std::vector<FieldDerivatives> &result) const
   {
+    const FieldDerivatives surface{geometry.position(q),
+                                   {{geometry.tangent(q, 0),
+                                     geometry.tangent(q, 1)}},
+                                   geometry.second_derivatives(q)};
     std::array<FieldDerivatives, TipFunctions::n_functions> fields;
     for (const Share &share : shares)
       {

@@ -4,7 +4,9 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 #include <nacre/discretization/part_quadrature.h>
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/forms/shell_actions.h>
+#include <nacre/mechanics/elastic_plate.h>
 #include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/crack_lips.h>
 #include <nacre/postprocess/crack_points.h>
@@ -501,23 +503,10 @@ namespace Nacre
   {
     if (shell_.model.kinematics.model != KinematicsModel::linear)
       return {};
-    const auto &section = shell_.model.section;
-    const auto  frame =
-      make_surface_frame(tip_.axes[0], tip_.axes[1], std::array<Vector3, 3>());
-    const auto   C = section.stiffness(frame, tip_.position);
-    const double h = section.thickness(tip_.position);
-    const double A = C.membrane[0][0], nu = C.membrane[0][1] / A;
-
-    // What the stiffnesses of such a plate are, to some digits
-    VoigtMatrix<> H;
-    H[0][0] = H[1][1] = 1.;
-    H[0][1] = H[1][0] = nu;
-    H[2][2]           = 0.5 * (1. - nu);
-    if (section.is_linear() && (C.membrane - A * H).norm() < 1e-8 * A &&
-        (C.bending - A * h * h / 12. * H).norm() < 1e-8 * A * h * h &&
-        C.coupling.norm() < 1e-8 * A * h)
-      return ElasticPlate{A * (1. - nu * nu) / h, nu, h};
-    return {};
+    return elastic_plate(shell_.model.section,
+                         tip_.position,
+                         tip_.axes[0],
+                         tip_.axes[1]);
   }
 
   ElasticPlate

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/mpi_errors.h>
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/forms/finite_edge.h>
 #include <nacre/forms/foundation_term.h>
 #include <nacre/forms/rotation_jump.h>

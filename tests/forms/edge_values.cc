@@ -7,7 +7,7 @@
 
 #include "../tests_common.h"
 #include <nacre/base/cpu_timer.h>
-#include <nacre/discretization/shell_values.h>
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/forms/reference_strains.h>
 
 #include <deal.II/fe/fe_interface_values.h>

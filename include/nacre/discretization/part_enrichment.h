@@ -4,7 +4,7 @@
 #ifndef nacre_discretization_part_enrichment_h
 #define nacre_discretization_part_enrichment_h
 
-#include <nacre/base/types.h>
+#include <nacre/discretization/shape_table.h>
 #include <nacre/discretization/tip_functions.h>
 
 #include <deal.II/base/quadrature.h>
@@ -15,7 +15,6 @@
 namespace Nacre
 {
   struct CellPart;
-  class ShapeTable;
 
   /**
    * What the tips of cuts add to the displacements of a part, (C.4) of
@@ -58,14 +57,13 @@ namespace Nacre
 
     /**
      * The functions psi_k at a point, appended to @p result.
-     * @param q the point's number in @p shapes
-     * @param surface the mid-surface (length)
+     * @param q the point's number in @p shapes and @p geometry
      */
     void
     evaluate(const ShapeTable              &shapes,
+             const GeometryTable::Values   &geometry,
              const unsigned int             q,
              const Point<dim>              &unit,
-             const FieldDerivatives        &surface,
              std::vector<FieldDerivatives> &result) const;
   };
 

@@ -5,6 +5,7 @@
 #define nacre_discretization_shape_table_h
 
 #include <nacre/base/types.h>
+#include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/base/array_view.h>
 
@@ -120,6 +121,15 @@ namespace Nacre
       tangent(const unsigned int q, const unsigned int alpha) const
       {
         return get(q, 1 + alpha);
+      }
+
+      /** The frame of the mid-surface. */
+      SurfaceFrame<>
+      frame(const unsigned int q) const
+      {
+        return make_surface_frame(tangent(q, 0),
+                                  tangent(q, 1),
+                                  second_derivatives(q));
       }
 
       /** phi0,11, phi0,22, phi0,12. */

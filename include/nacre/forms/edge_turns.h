@@ -4,7 +4,7 @@
 #ifndef nacre_forms_edge_turns_h
 #define nacre_forms_edge_turns_h
 
-#include <nacre/discretization/shell_values.h>
+#include <nacre/discretization/shell_edge_values.h>
 
 #include <vector>
 

@@ -4,6 +4,7 @@
 #ifndef nacre_forms_kinematics_h
 #define nacre_forms_kinematics_h
 
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/forms/prescribed_rotation.h>
 #include <nacre/mechanics/section_law.h>

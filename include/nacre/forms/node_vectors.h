@@ -4,6 +4,7 @@
 #ifndef nacre_forms_node_vectors_h
 #define nacre_forms_node_vectors_h
 
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/discretization/shell_values.h>
 
 #include <deal.II/lac/vector.h>

@@ -4,7 +4,7 @@
 #ifndef nacre_forms_rotation_jump_h
 #define nacre_forms_rotation_jump_h
 
-#include <nacre/discretization/shell_values.h>
+#include <nacre/discretization/shell_edge_values.h>
 #include <nacre/mechanics/section_law.h>
 
 namespace Nacre

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Shells and analyses for which tips have no functions, and tips that are too
+near; tests/parameters/bad_input.py runs them."""
+import pathlib
+
+WITH_GOOD_CASES = False
+FOLDER = pathlib.Path(__file__).resolve().parents[2] / "prm/fracture"
+BASE = (FOLDER / "tip_functions.prm").read_text(encoding="utf-8").replace(
+    "2, 3", "2").replace("= 25", "= 9")
+CASES = {}
+
+
+def case(name, expect, settings, args=()):
+    assert name not in CASES, name
+    CASES[name] = dict(expect=expect, change=None, prm=BASE, args=list(args),
+                       folder={}, code=1, settings=settings)
+
+
+case("finite", ["Cuts/Tips", "'Kinematics = linear'", "'closed'"],
+     {"Discretization/Kinematics": "finite", "Analysis/Type": "static"},
+     ["--check"])
+case("modes", ["Cuts/Tips", "'Analysis/Type = linear'"],
+     {"Analysis/Type": "vibration", "Section/Density": "1",
+      "Quantities/Quantities": ""}, ["--check"])
+case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
+     {"Section/Type": "laminate", "Quantities/Quantities": "",
+      "Section/Laminate/Materials":
+      "a: E1 = 25, E2 = 1, nu12 = 0.25, G12 = 0.5",
+      "Section/Laminate/Stack": "[0/90]s", "Section/Laminate/Thickness": "0.1",
+      "Loads/Edge moments": ""})
+case("near", ["Cuts/Tips", "'crack'", "reach the tip of", "refine"],
+     {"Cuts/Cuts": "crack: uv (-0.2, 0.003) (0.2, 0.003)"})
+case("point_force", ["Loads", "two cells of the tip", "'Cuts/Tips = closed'"],
+     {"Loads/Point forces": "(0.55, 0.2, 0): 0, 0, 1"})
+case("cycles", ["Adaptive refinement/Cycles", "branch functions"],
+     {"Adaptive refinement/Cycles": "1"}, ["--check"])
