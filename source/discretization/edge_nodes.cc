@@ -92,7 +92,8 @@ namespace Nacre
                            [](const auto &a, const auto &b) {
                              return a[1] - a[0] < b[1] - b[0];
                            });
-        const QGaussLobatto<1> rule(discretization.degree() + 1);
+        // Not at the cut, where an expression may be that of the other side
+        const QGauss<1> rule(discretization.degree() + 1);
         for (const auto &x : rule.get_points())
           points_.emplace_back((*longest)[0] +
                                x[0] * ((*longest)[1] - (*longest)[0]));

@@ -112,8 +112,14 @@ namespace Nacre
                              Log               &log) const
   {
     const SolverParameters &chosen = problem_.solver;
-    const bool can_coarsen = MultigridSolver::has_coarser_mesh(discretization_);
-    if (chosen.type == SolverType::multigrid && !can_coarsen)
+    const bool can_coarsen =
+      MultigridSolver::has_coarser_mesh(discretization_) &&
+      !discretization_.has_tip_functions();
+    if (chosen.type == SolverType::multigrid &&
+        discretization_.has_tip_functions())
+      log.warning("Linear solver/Solver: multigrid doesn't know the branch "
+                  "functions of Cuts/Tips; the direct solver is taken.");
+    else if (chosen.type == SolverType::multigrid && !can_coarsen)
       log.warning(
         "Linear solver/Solver: the mesh is not refined from a coarser one, "
         "nor is there a coarser space than degree 2; the direct solver is "
