@@ -29,8 +29,8 @@ for example
   --expect "eta == 5: abs(ratio - listed(.994, .999, .9998)) <= 2e-3"
 
 --compare-ranks N runs the file on N ranks too and compares all columns but the
-CPU seconds, memory, solver, iterations, and what divides by a small error (rates,
-effectivity) with those of the first run, to the relative --tolerance.
+CPU seconds, memory, solver, iterations, and what divides by a small error
+(rates, effectivity) with those of the first run, to the relative --tolerance.
 --compare-set does so with a run of another value of a parameter.
 """
 

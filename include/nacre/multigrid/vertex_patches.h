@@ -41,10 +41,10 @@ namespace Nacre
    * The unconstrained dofs of overlapping patches, one for each vertex. Each
    * unconstrained dof is in some patch.
    *
-   * A crack is shorter on the coarser mesh, where it closes at the edge by which
-   * it enters its last cell. That takes no vertex' patch back, so that each tip
-   * has a further patch: all dofs of that cell's children and of the cells
-   * around them.
+   * A crack is shorter on the coarser mesh, where it closes at the edge by
+   * which it enters its last cell. No vertex' patch makes up for that, so that
+   * each tip has a further patch: all dofs of that cell's children and of the
+   * cells around them.
    *
    * A patch belongs to the lowest rank that owns one of its cells, and is
    * listed in the order of the cells.
