@@ -190,10 +190,7 @@ namespace Nacre
                                     shares.end(),
                                     [](const auto &s) { return s.is_near; });
     if (share == shares.end())
-      return part_quadrature(part.is_cut() ?
-                               part.polygon() :
-                               CellPolygon::whole(part.cell->reference_cell()),
-                             degree + 3);
+      return part_quadrature(part.outline(), degree + 3);
     const QGauss<dim>       rule(2 * degree + 4);
     std::vector<Point<dim>> points;
     std::vector<double>     weights;

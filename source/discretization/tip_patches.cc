@@ -261,9 +261,7 @@ namespace Nacre
     if (part.cell->id() != tips_[t].cell)
       return false;
     const Point<dim> &x       = tips_[t].unit;
-    const auto        polygon = part.is_cut() ?
-                                  part.polygon() :
-                                  CellPolygon::whole(part.cell->reference_cell());
+    const auto        polygon = part.outline();
     if (!polygon.contains(x, 0.))
       return false;
     // A tip on an edge doesn't lie inside.
@@ -278,10 +276,13 @@ namespace Nacre
   }
 
   int
-  TipPatches::side_of(const Patch    &patch,
-                      const CellPart &part,
-                      const bool      is_cut) const
+  TipPatches::side_of(const unsigned int t,
+                      const CellPart    &part,
+                      const bool         is_cut) const
   {
+    if (holds_tip(t, part))
+      return 0;
+    const Patch     &patch = patches_[t];
     const Point<dim> unit =
       part.is_cut() ? part.polygon().inner_point() :
                       part.cell->reference_cell().template barycenter<dim>();
@@ -332,9 +333,7 @@ namespace Nacre
             for (unsigned int i = 0; i < parts.n_parts(cell); ++i)
               {
                 const CellPart part = parts.part(cell, i);
-                const int      side = holds_tip(t, part) ?
-                                        0 :
-                                        side_of(patch, part, parts.is_cut(cell));
+                const int      side = side_of(t, part, parts.is_cut(cell));
                 for (unsigned int a = 0; a < scalar_fe_.n_dofs_per_cell(); ++a)
                   mine.emplace_back(part.data->dofs[node_dofs_[spacedim * a]],
                                     side + 1);

@@ -79,6 +79,13 @@ namespace Nacre
       return *data->polygon;
     }
 
+    /** That of the part, or of the whole cell. */
+    CellPolygon
+    outline() const
+    {
+      return is_cut() ? polygon() : CellPolygon::whole(cell->reference_cell());
+    }
+
     /** Its tip functions; null: none. */
     const PartEnrichment *
     enrichment() const

@@ -128,9 +128,9 @@ namespace Nacre
     bool
     is_in(const Patch &patch, const Cell &cell) const;
 
-    /** The sheet of a part. */
+    /** The sheet of a part; 0 where the tip lies inside. */
     int
-    side_of(const Patch &patch, const CellPart &part, const bool is_cut) const;
+    side_of(const unsigned int t, const CellPart &part, const bool is_cut) const;
 
     bool
     holds_tip(const unsigned int t, const CellPart &part) const;
