@@ -112,7 +112,7 @@ namespace Nacre
                              Log               &log) const
   {
     const SolverParameters &chosen = problem_.solver;
-    const bool can_coarsen =
+    const bool              can_coarsen =
       MultigridSolver::has_coarser_mesh(discretization_) &&
       !discretization_.has_tip_functions();
     if (chosen.type == SolverType::multigrid &&

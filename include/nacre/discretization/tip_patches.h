@@ -130,7 +130,9 @@ namespace Nacre
 
     /** The sheet of a part; 0 where the tip lies inside. */
     int
-    side_of(const unsigned int t, const CellPart &part, const bool is_cut) const;
+    side_of(const unsigned int t,
+            const CellPart    &part,
+            const bool         is_cut) const;
 
     bool
     holds_tip(const unsigned int t, const CellPart &part) const;
