@@ -114,10 +114,10 @@ namespace
   void
   test_moment(const Element &element)
   {
-    GrowingShell                         shell(surface_text("u, v, 0", 6, 4),
-                       element,
-                       {line("tear", {{-.1, .43}, {.41, .47}}),
-                                                line("other", {{.73, -.1}, {.71, .31}})});
+    const auto   tear  = line("tear", {{-.1, .43}, {.41, .47}});
+    const auto   other = line("other", {{.73, -.1}, {.71, .31}});
+    GrowingShell shell(surface_text("u, v, 0", 6, 4), element, {tear, other});
+
     auto                                 u = zero_vector(*shell.discretization);
     std::vector<types::global_dof_index> dofs;
     for (const CellPart &part : shell.discretization->owned_parts())
