@@ -84,6 +84,7 @@ namespace Nacre
                                                patch.size);
         make_path(lines, t);
       }
+    check_bends(cuts);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       if (!cell->is_artificial())
         for (const Patch &patch : patches_)
@@ -185,16 +186,47 @@ namespace Nacre
     return std::find(is_one.begin(), is_one.end(), true) != is_one.end();
   }
 
+  std::string
+  TipPatches::where(const Cuts &cuts, const unsigned int t) const
+  {
+    const auto &x = tips_[t].position;
+    return "Cuts/Tips: branch functions of the tip of '" +
+           cuts.curves[tips_[t].cut].name + "' at (" + Text::number(x[0]) +
+           ", " + Text::number(x[1]) + ", " + Text::number(x[2]) + ")";
+  }
+
+  void
+  TipPatches::check_bends(const Cuts &cuts) const
+  {
+    // How far the cut may leave the tip's line, in diameters of the cell.
+    constexpr double straight = 0.02;
+    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        for (unsigned int t = 0; t < tips_.size(); ++t)
+          {
+            if (!cell->is_locally_owned() || cell->id() != tips_[t].cell)
+              continue;
+            const Patch &patch = patches_[t];
+            const auto   nodes = positions_(CellPart(cell));
+            for (const auto &x : patch.path)
+              {
+                const auto unit = continued_point(scalar_fe_, nodes, x);
+                if (!cell->reference_cell().contains_point(unit, 1e-8))
+                  break;
+                AssertThrow(
+                  std::abs((x - patch.frame.position) * patch.frame.axes[1]) <
+                    straight * patch.size,
+                  ExcMessage(where(cuts, t) +
+                             " are those of a straight cut; it turns in the "
+                             "cell in which it ends. Refine the mesh there."));
+              }
+          }
+    });
+  }
+
   void
   TipPatches::check(const Cuts &cuts) const
   {
-    const auto where = [&](const unsigned int t) {
-      return "Cuts/Tips: branch functions of the tip of '" +
-             cuts.curves[tips_[t].cut].name + "' at (" +
-             Text::number(tips_[t].position[0]) + ", " +
-             Text::number(tips_[t].position[1]) + ", " +
-             Text::number(tips_[t].position[2]) + ")";
-    };
     run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
       for (const auto &cell : dof_handler_.active_cell_iterators())
         if (cell->is_locally_owned())
@@ -206,12 +238,12 @@ namespace Nacre
                 AssertThrow(cell->at_boundary(face) ||
                               (cell->neighbor(face)->is_active() &&
                                cell->neighbor(face)->level() == cell->level()),
-                            ExcMessage(where(t) +
+                            ExcMessage(where(cuts, t) +
                                        " need cells of one size within two "
                                        "cells of it; refine there."));
               for (unsigned int s = 0; s < tips_.size(); ++s)
                 AssertThrow(s == t || cell->id() != tips_[s].cell,
-                            ExcMessage(where(t) + " reach the tip of '" +
+                            ExcMessage(where(cuts, t) + " reach the tip of '" +
                                        cuts.curves[tips_[s].cut].name +
                                        "', nearer than three cells; refine "
                                        "the mesh."));

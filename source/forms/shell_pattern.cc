@@ -176,8 +176,10 @@ namespace Nacre
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
                  fe.n_dofs_per_line());
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
-        if (dofs.size() > fe.n_dofs_per_cell()) // functions of tips
-          append(fe.n_dofs_per_cell(), dofs.size() - fe.n_dofs_per_cell());
+        // Those of each tip's functions
+        for (unsigned int first = fe.n_dofs_per_cell(); first < dofs.size();
+             first += TipFunctions::n_functions)
+          append(first, TipFunctions::n_functions);
       }
 
       void

@@ -40,8 +40,8 @@ def inclined(rows):
     check_near("rows", len(rows), 6, 0)
     for tip, x, y in (("crack_begin", -.63605, -.12470),
                       ("crack_end", .65803, .10987)):
-        check_near(f"x of {tip}", rows[-1][f"x_{tip}"], x, .01)
-        check_near(f"y of {tip}", rows[-1][f"y_{tip}"], y, .01)
+        check_near(f"x of {tip}", rows[-1][f"x_{tip}"], x, 2e-3)
+        check_near(f"y of {tip}", rows[-1][f"y_{tip}"], y, 2e-3)
     for row in rows:
         check_near("larger G over Gc h", 20. * max(row["G_crack_begin"],
                                                    row["G_crack_end"]),
@@ -80,7 +80,7 @@ def tube(rows):
         place = (12. * .91)**.25 * a / .1
         sigma = 100. * row["load_factor"]
         g = row["G_crack_end"] * 1e9 / (.01 * sigma**2 * math.pi * a)
-        check_near(f"G at lambda = {place:.3g}", g / folias(place), 1., .08)
+        check_near(f"G at lambda = {place:.3g}", g / folias(place), 1., .02)
         check(abs(row["angle_crack_end"]) < 1., "straight")
     factors = [row["load_factor"] for row in rows]
     check(sorted(factors, reverse=True) == factors, "the pressure falls")

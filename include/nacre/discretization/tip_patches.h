@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace Nacre
@@ -34,7 +35,8 @@ namespace Nacre
 
     /**
      * Collective. Makes the cells of the patches touched ones. Throws if a
-     * patch has cells of several sizes or holds the tip's cell of another cut.
+     * patch has cells of several sizes or holds the tip's cell of another cut,
+     * and if a cut turns in the cell in which it ends.
      * @param positions (length) of the nodes of a part
      */
     TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
@@ -117,6 +119,13 @@ namespace Nacre
 
     void
     check(const Cuts &cuts) const;
+
+    void
+    check_bends(const Cuts &cuts) const;
+
+    /** Begins messages about a tip. */
+    std::string
+    where(const Cuts &cuts, const unsigned int t) const;
 
     void
     make_path(const std::vector<CutTrace::Line> &lines, const unsigned int t);
