@@ -262,6 +262,22 @@ def compare(first, second, what, tolerance):
     return good
 
 
+def run_cases(cases, run_case, usage):
+    """Of a script NACRE CASE, or --list: the exit code of run_case(NACRE,
+    *cases[CASE])."""
+    if sys.argv[1:] == ["--list"]:
+        print("\n".join(cases))
+        return 0
+    if len(sys.argv) != 3 or sys.argv[2] not in cases:
+        sys.exit(usage)
+    try:
+        run_case(sys.argv[1], *cases[sys.argv[2]])
+    except Failure as failure:
+        print(f"FAILED: {failure}")
+        return 1
+    return 0
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)

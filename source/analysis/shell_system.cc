@@ -422,7 +422,7 @@ namespace Nacre
       {
         discretization_.get_dof_indices(part, dofs);
         const auto nodes = discretization_.node_positions(part);
-        for (unsigned int k = 0; k < dofs.size(); ++k)
+        for (unsigned int k = 0; k < node_dofs.size(); ++k)
           {
             const auto i = dofs[node_dofs[k]];
             if (owned.is_element(i) && std::abs(v(i)) > largest)

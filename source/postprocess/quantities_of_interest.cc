@@ -47,6 +47,8 @@ namespace Nacre
           for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
             for (unsigned int c = 0; c < spacedim; ++c)
               g(dofs[values.dof(a, c)]) += d[c] * values.shapes().value(0, a);
+          for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+            g(dofs[values.tip_dof(k)]) += d * values.tip_function(0, k).value;
         }
       g.compress(VectorOperation::add);
       return g;
@@ -88,7 +90,7 @@ namespace Nacre
               continue;
             }
           discretization.get_dof_indices(part, dofs);
-          for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
+          for (unsigned int a = 0; a < node_dofs.size() / spacedim; ++a)
             {
               Vector3 u;
               for (unsigned int c = 0; c < spacedim; ++c)

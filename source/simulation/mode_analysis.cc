@@ -198,7 +198,7 @@ namespace Nacre
     for (const CellPart &part : shell.discretization().owned_parts())
       {
         shell.discretization().get_dof_indices(part, dofs);
-        for (unsigned int a = 0; a < dofs.size() / spacedim; ++a)
+        for (unsigned int a = 0; a < node_dofs.size() / spacedim; ++a)
           {
             Tensor<1, spacedim> u;
             for (unsigned int c = 0; c < spacedim; ++c)

@@ -28,7 +28,7 @@ namespace Nacre
           const unsigned int first = 6 * components.of(part);
           discretization.get_dof_indices(part, dofs);
           const auto nodes = discretization.node_positions(part);
-          for (unsigned int k = 0; k < dofs.size(); ++k)
+          for (unsigned int k = 0; k < node_dofs.size(); ++k)
             {
               const auto i = dofs[node_dofs[k]];
               if (!discretization.locally_owned_dofs().is_element(i))

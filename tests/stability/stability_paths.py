@@ -230,19 +230,5 @@ def run_case(nacre, file, parameters, check_path):
         check_path(rows, read("study_points.csv"), table)
 
 
-def main():
-    if sys.argv[1:] == ["--list"]:
-        print("\n".join(CASES))
-        return 0
-    if len(sys.argv) != 3 or sys.argv[2] not in CASES:
-        sys.exit(__doc__)
-    try:
-        run_case(sys.argv[1], *CASES[sys.argv[2]])
-    except run_study.Failure as failure:
-        print(f"FAILED: {failure}")
-        return 1
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_study.run_cases(CASES, run_case, __doc__))
