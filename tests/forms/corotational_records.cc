@@ -230,7 +230,8 @@ test_points(const std::string         &name,
                     outer_product(bending.deformed(q).t0, frame.t0),
                   rotations);
       for (unsigned int v = 0; v < 3; ++v)
-        strains.push_back(mesh.strain_factor() * membrane.strain(3 * q + v));
+        strains.push_back(mesh.strain_factor() *
+                          membrane.tied_strain(values.tying(), q)[v]);
       for (unsigned int v = 0; v < 3; ++v)
         strains.push_back(mesh.strain_factor() * bending.strain(q)[v]);
     }
