@@ -7,8 +7,8 @@
   benchmarks/cracks.py --list      their names
 
 NAME: plates, sizes, inclined, difference, cylinders, and with cuts: cut_plates,
-cut_ends, cut_inclined, cut_difference, cut_cylinders. The meshes are made for
-each case; prm/fracture/ has the rest.
+cut_ends, cut_inclined, cut_difference, cut_cylinders, tip_functions. The meshes
+are made for each case; prm/fracture/ has the rest.
 """
 
 import argparse
@@ -26,7 +26,11 @@ sys.path.insert(0, str(PROJECT / "scripts"))
 import make_meshes  # noqa: E402  (found by the line above)
 
 E, NU, H = 1e6, 0.3, 0.1
-NAMES = "K_I", "K_II", "K_M", "K_T", "G", "U", "kink"
+NAMES = ("K_I", "K_II", "K_M", "K_T", "G", "U", "kink", "ratio", "ratio_K_II",
+         "ratio_K_M", "ratio_K_T")
+# Tips with Williams' fields, in cells of one size
+TIPS = {"Cuts/Tips": "branch functions"}
+UNIFORM = {"Mid-surface/Grading u": "s", "Mid-surface/Grading v": "s", **TIPS}
 # kind, a, H, F in tension, F in bending: doc/benchmarks/cracked_plates.md
 PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
           ("centre", .5, 1, 1.3337122, 1.1323155),
@@ -78,7 +82,7 @@ class Nacre:
         with open(pathlib.Path(self.folder, "cracks.csv"), newline="",
                   encoding="utf-8") as file:
             row = list(csv.DictReader(file))[-1]
-        return {key: float(row[key]) for key in NAMES if key in row}
+        return {key: float(row[key]) for key in NAMES if row.get(key)}
 
 
 def quantities(tip, radii, names=("K_I", "K_II", "K_M", "K_T")):
@@ -320,7 +324,7 @@ def cut_ends(nacre):
              compared(b_k, 1.1323155), compared(b_g, 1.1323155))
 
 
-def cut_inclined(nacre):
+def inclined_cuts(nacre, levels, more, compared=compared):
     """The infinite plate, its displacements prescribed around."""
     head("angle", "cells", "K_I", "exact", "K_II", "exact", "kink", "exact")
     text = (PROJECT / "prm/fracture/inclined_cut.prm").read_text(
@@ -332,14 +336,18 @@ def cut_inclined(nacre):
         n, t = math.cos(beta)**2, math.sin(beta) * math.cos(beta)
         kink = 2 * math.degrees(math.atan(
             (n - math.sqrt(n * n + 8 * t * t)) / (4 * t)))
-        for level in 0, 1, 2:
+        for level in levels:
             found = nacre.run("inclined_cut.prm", None, {
                 "Constants": constants.replace("pi/6", repr(beta)),
-                "Study/Refinements": level})
+                "Study/Refinements": level, **more})
             root = math.sqrt(math.pi * .5)
             line(degrees, 400 * 4**level, compared(found["K_I"] / root, n),
                  f"{n:.6f}", compared(found["K_II"] / root, t), f"{t:.6f}",
                  f"{found['kink']:.3f}", f"{kink:.3f}")
+
+
+def cut_inclined(nacre):
+    inclined_cuts(nacre, (0, 1, 2), {})
 
 
 def cut_difference(nacre):
@@ -356,21 +364,24 @@ def cut_difference(nacre):
              f"{100 * (G / slope - 1):+.2f} %")
 
 
-def cut_cylinder(nacre, axial, ratio, shell):
-    """A_m, A_b, g of a cylinder under a pressure, or of one that is pulled."""
+def cut_cylinder(nacre, axial, ratio, shell, cells=None, inside=0, more=None):
+    """A_m, A_b, g of a cylinder under a pressure, or of one that is pulled.
+
+    cells: before the tip, behind it, across, and on a; inside: the share of
+    its cell by which the cut goes on behind the line of the mesh."""
     h = 1 / ratio
     a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
     # What a crack around the axis disturbs reaches far along it.
     far = min(16 * a, 1.2) if axial else min(64 * a, 1.5)
     before, behind, across = (14, 24, 45) if axial else (14, 30, 57)
+    n, size = before + behind, a / 20 / far
     power = 3 if axial else 4
-    n = before + behind
     settings = {
         "Constants": f"a = {a!r}, h0 = {h!r}",
         "Mid-surface/Subdivisions": f"{n}, {across}",
         "Mid-surface/Grading u":
-            grading(a / far, n, a / 20 / far, before, power),
-        "Mid-surface/Grading v": to_middle(across, a / 20 / far / 2, power),
+            grading(a / far - inside * size, n, size, before, power),
+        "Mid-surface/Grading v": to_middle(across, size / 2, power),
         "Mid-surface/expression/Position":
             "u, sin(v), cos(v)" if axial else "-v, sin(u), cos(u)",
         "Mid-surface/expression/Range u": f"0, {far!r}",
@@ -390,27 +401,102 @@ def cut_cylinder(nacre, axial, ratio, shell):
             "Boundary conditions/Edges": "u=0, u=1: symmetry",
             "Boundary conditions/Points":
                 f"(0.001, {math.sin(far)!r}, {math.cos(far)!r}): x = 0"})
-    found = nacre.run("inclined_cut.prm", None, settings)
+    found = nacre.run("inclined_cut.prm", None, {**settings, **(more or {})})
     root = math.sqrt(math.pi * a)
     return (found["K_I"] / root, 6 * found["K_M"] / (h * h * root),
             found["G"] * 1e3 / (h * math.pi * a))
 
 
-def cut_cylinders(nacre):
+def cylinder_table(nacre, **more):
     head("crack", "R/h", "lambda", "A_m", "Nacre", "A_b", "Nacre", "g",
          "Nacre")
     for axial, ratio, shell, *references in AXIAL_CUTS + CIRCUMFERENTIAL_CUTS:
         cells = []
         for reference, value in zip(references, cut_cylinder(
-                nacre, axial, ratio, shell)):
+                nacre, axial, ratio, shell, **more)):
             cells += [reference, compared(value, reference)]
         line("axial" if axial else "around", ratio, shell, *cells)
+
+
+def cut_cylinders(nacre):
+    cylinder_table(nacre)
+
+
+def off(value):
+    return f"{value - 1:+.1e}"
+
+
+def near(value, reference):
+    if reference is None:
+        return f"{value:.6f}"
+    return f"{value:.6f} ({off(value / reference)})"
+
+
+def tip_fields(nacre):
+    """Williams' fields around as displacements."""
+    head("p", "cells", "K_I", "K_II", "K_M", "K_T")
+    for degree, n in (2, 16), (2, 32), (3, 12), (3, 24):
+        found = nacre.run("williams_fields.prm", None, {
+            "Study/Degrees": degree, "Mid-surface/Subdivisions": n})
+        line(degree, n * n, *(off(found["ratio" + mode]) for mode in
+                              ("", "_K_II", "_K_M", "_K_T")))
+
+
+def tip_places(nacre):
+    """The same, at places of a cell."""
+    head("across the cell", "along the cell", "K_I", "K_II", "K_M", "K_T")
+    text = (PROJECT / "prm/fracture/williams_fields.prm").read_text(
+        encoding="utf-8")
+    constants = text.split("set Constants = ")[1].split("subsection")[0]
+    for b, a in ((.3, 0), (.3, .01), (.3, .25), (.3, .5), (.3, .75), (.3, .99),
+                 (.01, .5), (.01, .01), (.03, .97)):
+        found = nacre.run("williams_fields.prm", None, {
+            "Constants": constants.replace("\\\n", "").strip().replace(
+                "a = 0.07, b = 0.05", f"a = {a / 6!r}, b = {b / 6!r}"),
+            "Cuts/Snap": 0.001})
+        line(b, a, *(off(found["ratio" + mode]) for mode in
+                     ("", "_K_II", "_K_M", "_K_T")))
+
+
+def tip_meeting_lines(nacre):
+    """A cut across cells or along edges, that ends between or on lines."""
+    head("across", "along", "tension from K_I", "from G", "bending from K_M",
+         "from G")
+    for cells in (12, 11, 45), (12, 12, 45), (12, 11, 46), (12, 12, 46):
+        t_k, t_g, b_k, b_g = cut_factors(nacre, "centre", .5, 1, cells=cells,
+                                         more=UNIFORM)
+        line("inside" if cells[2] % 2 else "on a line",
+             "on a line" if cells[1] == 12 else "inside",
+             near(t_k, 1.3337122), near(t_g, 1.3337122), near(b_k, 1.1323155),
+             near(b_g, 1.1323155))
+
+
+def tip_functions(nacre):
+    for table in tip_fields, tip_places, tip_meeting_lines:
+        table(nacre)
+        print()
+    head("crack", "a/W", "H/W", "tension", "from K_I", "from G", "bending",
+         "from K_M", "from G")
+    for kind, a, height, tension, bending in PLATES:
+        across = 2 * math.floor(23 * height) - 1
+        t_k, t_g, b_k, b_g = cut_factors(
+            nacre, kind, a, height, cells=(12, 11, across), more=UNIFORM)
+        line(kind, a, height, tension or "", near(t_k, tension),
+             near(t_g, tension), bending or "", near(b_k, bending),
+             near(b_g, bending))
+    print()
+    inclined_cuts(nacre, (0, 1), {
+        **UNIFORM, "Quantities/Quantities": of_cut(
+            "0.1, 0.45", ("K_I", "K_II")) +
+        "; kink = kink angle of crack end radii 0.1, 0.45"}, near)
+    print()
+    cylinder_table(nacre, inside=.5, more=TIPS)
 
 
 TABLES = {table.__name__: table
           for table in (plates, sizes, inclined, difference, cylinders,
                         cut_plates, cut_ends, cut_inclined, cut_difference,
-                        cut_cylinders)}
+                        cut_cylinders, tip_functions)}
 
 
 def main():

@@ -26,9 +26,11 @@ function(nacre_study name prm)
   foreach(expectation IN LISTS study_EXPECT)
     list(APPEND arguments --expect ${expectation})
   endforeach()
-  add_test(NAME ${name} COMMAND ${PYTHON3}
-           ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_study.py $<TARGET_FILE:nacre>
-           ${PRM_FOLDER}/${prm} ${arguments})
+  set(command ${PYTHON3} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/run_study.py
+              $<TARGET_FILE:nacre> ${PRM_FOLDER}/${prm} ${arguments})
+  add_test(NAME ${name} COMMAND ${command})
+  # For tests/mutations
+  set_property(GLOBAL PROPERTY nacre_study/${name} "${command}")
   if(study_RANKS OR study_COMPARE_RANKS)
     set_tests_properties(${name} PROPERTIES PROCESSORS 2)
   endif()

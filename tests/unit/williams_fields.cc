@@ -2,9 +2,11 @@
 // Copyright (C) 2026 by the Nacre authors
 
 // The fields at a crack's tip: derivatives, equilibrium, free lips,
-// intensities, and the energy that they release, by an integral over a domain.
+// intensities, the energy that they release, by an integral over a domain, and
+// the functions that tips of cuts have.
 
 #include "unit_test.h"
+#include <nacre/discretization/tip_functions.h>
 #include <nacre/mechanics/hoop_stress.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/postprocess/crack_extension.h>
@@ -196,6 +198,74 @@ BOOST_AUTO_TEST_CASE(derivatives)
               }
           }
       }
+}
+
+BOOST_AUTO_TEST_CASE(functions_of_a_tip)
+{
+  // On a curved surface, beside differences
+  const TipFunctions functions(
+    {Point<3>(0.1, 0., 0.2),
+     {{Point<3>(0.6, 0.8, 0), Point<3>(-0.8, 0.6, 0), Point<3>(0, 0, 1)}}},
+    plate.poissons_ratio,
+    0.5);
+  const auto surface = [](const double u, const double v) {
+    return FieldDerivatives{
+      Point<3>(u + 0.1 * u * v, v + 0.2 * u * u, 0.3 * v * v + u),
+      {{Point<3>(1. + 0.1 * v, 0.4 * u, 1.), Point<3>(0.1 * u, 1., 0.6 * v)}},
+      {{Point<3>(0, 0.4, 0), Point<3>(0, 0, 0.6), Point<3>(0.1, 0, 0)}}};
+  };
+  const auto at = [&](const double u, const double v, const int side) {
+    std::array<FieldDerivatives, TipFunctions::n_functions> result;
+    functions.evaluate(surface(u, v), side, result);
+    return result;
+  };
+  const double d = 1e-5;
+  for (const int side : {0, 1, -1})
+    for (const auto &[u, v] : {std::pair(0.7, 0.3),
+                               std::pair(-0.2, 0.5),
+                               std::pair(-0.4, -0.5)})
+      {
+        const auto F      = at(u, v, side);
+        const auto values = functions.values(Point<3>(surface(u, v).value),
+                                             side);
+        const auto u_0 = at(u - d, v, side), u_1 = at(u + d, v, side);
+        const auto v_0 = at(u, v - d, side), v_1 = at(u, v + d, side);
+        for (unsigned int k = 0; k < F.size(); ++k)
+          {
+            const auto slope = [&](const Tensor<1, 3> &left,
+                                   const Tensor<1, 3> &right,
+                                   const Tensor<1, 3> &derivative) {
+              BOOST_TEST(((right - left) / (2. * d) - derivative).norm() <
+                         1e-7);
+            };
+            BOOST_TEST((F[k].value - values[k]).norm() < 1e-13);
+            slope(u_0[k].value, u_1[k].value, F[k].first[0]);
+            slope(v_0[k].value, v_1[k].value, F[k].first[1]);
+            slope(u_0[k].first[0], u_1[k].first[0], F[k].second[0]);
+            slope(v_0[k].first[1], v_1[k].first[1], F[k].second[1]);
+            slope(v_0[k].first[0], v_1[k].first[0], F[k].second[2]);
+          }
+      }
+  // The sheet of a lip goes on beyond the crack's line, which has a jump.
+  const auto &tip    = functions.tip();
+  const auto  behind = tip.position - 0.3 * tip.axes[0];
+  for (const int side : {1, -1})
+    {
+      const auto lip    = functions.values(behind, side);
+      const auto before = functions.values(behind + 1e-6 * side * tip.axes[1],
+                                           0);
+      const auto beyond = functions.values(behind - 1e-6 * side * tip.axes[1],
+                                           side);
+      const auto other  = functions.values(behind, -side);
+      double     jump   = 0.;
+      for (unsigned int k = 0; k < lip.size(); ++k)
+        {
+          BOOST_TEST((lip[k] - before[k]).norm() < 1e-4);
+          BOOST_TEST((lip[k] - beyond[k]).norm() < 1e-4);
+          jump += (lip[k] - other[k]).norm();
+        }
+      BOOST_TEST(jump > 1.);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(equilibrium)
