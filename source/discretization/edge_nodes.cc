@@ -92,11 +92,18 @@ namespace Nacre
                            [](const auto &a, const auto &b) {
                              return a[1] - a[0] < b[1] - b[0];
                            });
+        const double length = (*longest)[1] - (*longest)[0];
+        // A polynomial of degree n magnifies round-off by length^-n; a short
+        // interval, of a small part, continues with a lower degree.
+        const double largest = 1e7;
+        const double degree =
+          std::min<double>(discretization.degree(),
+                           std::log(largest) /
+                             -std::log(std::min(length, 1. - 1e-9)));
         // Not at the cut, where an expression may be that of the other side
-        const QGauss<1> rule(discretization.degree() + 1);
+        const QGauss<1> rule(static_cast<unsigned int>(degree) + 1);
         for (const auto &x : rule.get_points())
-          points_.emplace_back((*longest)[0] +
-                               x[0] * ((*longest)[1] - (*longest)[0]));
+          points_.emplace_back((*longest)[0] + x[0] * length);
       }
 
       /** The number of samples of the node @p a, their places and weights. */
