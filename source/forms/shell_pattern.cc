@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/discretization/tip_functions.h>
 #include <nacre/forms/shell_pattern.h>
 #include <nacre/solvers/sparse_rows.h>
 
@@ -176,8 +177,10 @@ namespace Nacre
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
                  fe.n_dofs_per_line());
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
-        if (dofs.size() > fe.n_dofs_per_cell()) // functions of tips
-          append(fe.n_dofs_per_cell(), dofs.size() - fe.n_dofs_per_cell());
+        // Tips that share cells have others alone, too.
+        for (unsigned int first = fe.n_dofs_per_cell(); first < dofs.size();
+             first += TipFunctions::n_functions)
+          append(first, TipFunctions::n_functions);
       }
 
       void
