@@ -363,7 +363,7 @@ namespace Nacre
     PartEnrichment::Share share;
     share.functions   = patch.functions;
     share.holds_tip   = holds_tip(t, part);
-    share.side        = share.holds_tip ? 0 : side_of(t, part, is_cut);
+    share.side        = side_of(t, part, is_cut);
     share.tip         = part.cell->id() == tips_[t].cell ?
                           tips_[t].unit :
                           continued_point(scalar_fe_, nodes, tips_[t].position);
