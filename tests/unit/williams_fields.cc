@@ -221,13 +221,12 @@ BOOST_AUTO_TEST_CASE(functions_of_a_tip)
   };
   const double d = 1e-5;
   for (const int side : {0, 1, -1})
-    for (const auto &[u, v] : {std::pair(0.7, 0.3),
-                               std::pair(-0.2, 0.5),
-                               std::pair(-0.4, -0.5)})
+    for (const auto &[u, v] :
+         {std::pair(0.7, 0.3), std::pair(-0.2, 0.5), std::pair(-0.4, -0.5)})
       {
-        const auto F      = at(u, v, side);
-        const auto values = functions.values(Point<3>(surface(u, v).value),
-                                             side);
+        const auto F = at(u, v, side);
+        const auto values =
+          functions.values(Point<3>(surface(u, v).value), side);
         const auto u_0 = at(u - d, v, side), u_1 = at(u + d, v, side);
         const auto v_0 = at(u, v - d, side), v_1 = at(u, v + d, side);
         for (unsigned int k = 0; k < F.size(); ++k)
@@ -251,13 +250,13 @@ BOOST_AUTO_TEST_CASE(functions_of_a_tip)
   const auto  behind = tip.position - 0.3 * tip.axes[0];
   for (const int side : {1, -1})
     {
-      const auto lip    = functions.values(behind, side);
-      const auto before = functions.values(behind + 1e-6 * side * tip.axes[1],
-                                           0);
-      const auto beyond = functions.values(behind - 1e-6 * side * tip.axes[1],
-                                           side);
-      const auto other  = functions.values(behind, -side);
-      double     jump   = 0.;
+      const auto lip = functions.values(behind, side);
+      const auto before =
+        functions.values(behind + 1e-6 * side * tip.axes[1], 0);
+      const auto beyond =
+        functions.values(behind - 1e-6 * side * tip.axes[1], side);
+      const auto other = functions.values(behind, -side);
+      double     jump  = 0.;
       for (unsigned int k = 0; k < lip.size(); ++k)
         {
           BOOST_TEST((lip[k] - before[k]).norm() < 1e-4);
