@@ -112,13 +112,18 @@ namespace Nacre
       {
         const double s =
           (fe_.unit_support_point(a) - start_) * along_ / along_.norm_square();
-        const bool is_beyond =
-          !intervals_.empty() && std::none_of(intervals_.begin(),
-                                              intervals_.end(),
-                                              [&](const auto &interval) {
-                                                return s > interval[0] - 1e-9 &&
-                                                       s < interval[1] + 1e-9;
-                                              });
+        // A node on the cut itself is one of either side.
+        const double tolerance = 1e-9;
+        const bool   is_beyond =
+          !intervals_.empty() &&
+          std::none_of(intervals_.begin(),
+                       intervals_.end(),
+                       [&](const auto &interval) {
+                         return (s > interval[0] + tolerance ||
+                                 interval[0] < tolerance) &&
+                                (s < interval[1] - tolerance ||
+                                 interval[1] > 1. - tolerance);
+                       });
         numbers.push_back(is_beyond ? points_.size() : 0);
         if (!is_beyond)
           return;

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Nacre
@@ -75,7 +76,9 @@ namespace Nacre
   {
     constexpr std::array<std::array<unsigned int, 2>, 3> pairs = {
       {{{0, 0}}, {{1, 1}}, {{0, 1}}}};
-    const auto [r, theta] = polar_coordinates(surface.value, side);
+    const auto [exact_r, theta] = polar_coordinates(surface.value, side);
+    // Output has points at the tip: no infinite stresses.
+    const double r = std::max(exact_r, 1e-7 * length_);
     // x,a and x,ab of the plane's coordinates
     std::array<std::array<double, 2>, 2> d1;
     std::array<std::array<double, 3>, 2> d2;
@@ -91,7 +94,7 @@ namespace Nacre
         const auto &[field, factor] = functions_[k];
         const auto gradient         = field.gradient(r, theta);
         const auto hessian          = field.hessian(r, theta);
-        result[k].value             = in_space(factor, field.value(r, theta));
+        result[k].value = in_space(factor, field.value(exact_r, theta));
         for (unsigned int a = 0; a < 2; ++a)
           result[k].first[a] =
             in_space(factor, d1[0][a] * gradient[0] + d1[1][a] * gradient[1]);
