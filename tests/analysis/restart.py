@@ -61,7 +61,6 @@ subsection Quantities
   set Quantities = w = displacement z at (L, b/2, 0); E = total energy
 end
 """
-N_KILLS = 10
 
 
 def command(arguments, folder, *more, ranks=None):
@@ -108,17 +107,17 @@ def wait_for_step(process, folder, step):
     return False
 
 
-def kill_and_restart(arguments, folder):
-    """Run to the end through N_KILLS kills; returns how many hit a run."""
+def kill_and_restart(arguments, folder, n_kills):
+    """Run to the end through kills; returns how many hit a run."""
     generator = random.Random(31)
     hits = 0
-    for k in range(N_KILLS + 1):
+    for k in range(n_kills + 1):
         start = saved_step(folder)
         process = subprocess.Popen(
             command(arguments, folder, *(["--restart"] if start > 0 else [])),
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
             start_new_session=True)
-        if k < N_KILLS and wait_for_step(process, folder,
+        if k < n_kills and wait_for_step(process, folder,
                                          start + generator.randint(1, 8)):
             # At any moment of a step, or of writing.
             time.sleep(generator.uniform(0., 0.05))
@@ -128,7 +127,7 @@ def kill_and_restart(arguments, folder):
             process.kill()
             hits += 1
         errors = process.communicate(timeout=250)[1]
-        if k == N_KILLS and process.returncode != 0:
+        if k == n_kills and process.returncode != 0:
             sys.exit(f"the last restart failed: {errors}")
     return hits
 
@@ -176,7 +175,7 @@ def listed_fields(out):
     return re.findall('file="([^"]*)"', (out / "run.pvd").read_text())
 
 
-def check_change_of_ranks(arguments, folder, element, field_format):
+def check_change_of_ranks(arguments, folder, element, field_format, changes):
     """Halfway on some ranks, the rest on others, as if nothing had happened."""
     (folder / "run.prm").write_text(PRM)
     short = ("--set", "Analysis/End time=0.16",
@@ -185,7 +184,7 @@ def check_change_of_ranks(arguments, folder, element, field_format):
     half = short + ("--set", "Analysis/End time=0.08")
     must_run(arguments, folder, *short, ranks=1)
     expected = rows(folder / "out" / "run_path.csv")
-    for first, second in ((1, 2), (3, 1), (2, 3)):
+    for first, second in changes:
         must_run(arguments, folder, *half, ranks=first)
         must_run(arguments, folder, *short, "--restart", ranks=second)
         compare(rows(folder / "out" / "run_path.csv"), expected, 1e-8)
@@ -219,12 +218,13 @@ def main():
     arguments = parser.parse_args()
     if arguments.change_ranks:
         with tempfile.TemporaryDirectory() as name:
-            for element, field_format in (("Lagrange", "vtu"),
-                                          ("triangle", "hdf5")):
+            for element, field_format, changes in (
+                    ("Lagrange", "vtu", ((1, 2), (3, 1), (2, 3))),
+                    ("triangle", "hdf5", ((3, 2),))):
                 folder = pathlib.Path(name, element)
                 folder.mkdir()
                 check_change_of_ranks(arguments, folder, element,
-                                      field_format)
+                                      field_format, changes)
         print("the same path on changing numbers of ranks")
         return
     with tempfile.TemporaryDirectory() as name:
@@ -236,8 +236,10 @@ def main():
         code, text = run(arguments, alone)
         if code != 0:
             sys.exit(text)
-        hits = kill_and_restart(arguments, killed)
-        if hits < N_KILLS:
+        # A start on several ranks takes ten times as long.
+        n_kills = 10 if arguments.ranks == 1 else 4
+        hits = kill_and_restart(arguments, killed, n_kills)
+        if hits < n_kills:
             sys.exit(f"only {hits} kills hit a running program")
         tolerance = 0. if arguments.ranks == 1 else 1e-6
         compare(rows(killed / "out" / "run_path.csv"),
