@@ -89,7 +89,7 @@ namespace Nacre
             pieces.push_back(piece);
         // Rows m_nn sqrt(ds / D) on all edges, in local dofs.
         const unsigned int n_dofs = values_.n_dofs();
-        rows_.clear();
+        moments_.clear();
         for (const EdgePiece &piece : pieces)
           {
             if (part.is_cut())
@@ -98,12 +98,10 @@ namespace Nacre
               edge_.reinit(part.cell, piece.sides[0].face);
             for (unsigned int q = 0; q < edge_.n_points(); ++q)
               {
-                rows_.resize(rows_.size() + n_dofs);
-                add_moment(q, rows_.data() + rows_.size() - n_dofs);
+                moments_.resize(moments_.size() + n_dofs);
+                add_moment(q, moments_.data() + moments_.size() - n_dofs);
               }
           }
-        moments_.reinit(rows_.size() / n_dofs, n_dofs, true);
-        moments_.fill(rows_.data());
         eigenvalue = pieces.empty() ? 0. : largest_eigenvalue();
       }
 
@@ -178,7 +176,7 @@ namespace Nacre
         fill_energy();
         // LAPACK's matrices are the transposes of ours.
         const types::blas_int n   = energy_.m();
-        const types::blas_int m   = moments_.m();
+        const types::blas_int m   = moments_.size() / n;
         const double          one = 1., zero = 0.;
         types::blas_int       info = 0;
         potrf("L", &n, &energy_(0, 0), &n, &info);
@@ -190,7 +188,7 @@ namespace Nacre
               &m,
               &energy_(0, 0),
               &n,
-              &moments_(0, 0),
+              moments_.data(),
               &n,
               &info);
         AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("trtrs", info));
@@ -201,7 +199,7 @@ namespace Nacre
              &size,
              m <= n ? &n : &m,
              &one,
-             &moments_(0, 0),
+             moments_.data(),
              &n,
              &zero,
              &small_(0, 0),
@@ -228,8 +226,7 @@ namespace Nacre
       Perimeter             perimeter_;
       JumpSide              side_;
       const Discretization &discretization_;
-      std::vector<double>   rows_;
-      FullMatrix<double>    moments_;
+      std::vector<double>   moments_; // by rows
       CellStiffness         stiffness_;
       FullMatrix<double>    stress_rows_;
       FullMatrix<double>    energy_;
