@@ -413,7 +413,7 @@ namespace
     check_message("hanging edges",
                   shell,
                   one_cut(uv, {{0.1, 1.3, 0.}, {3.9, 1.3, 0.}}),
-                  "Refine around the cut alike");
+                  "must be of one size; refine them alike");
     check("away from hanging edges",
           shell,
           one_cut(uv, {{0.1, 2.3, 0.}, {3.9, 2.3, 0.}}),
