@@ -309,7 +309,8 @@ namespace Nacre
     });
     AssertThrow(found != tips.end(),
                 ExcMessage(where + ": the " + end + " of the cut " + name +
-                           " is no tip; it doesn't lie inside the surface."));
+                           " is no tip; it lies outside of the surface "
+                           "or on another cut."));
     const MPI_Comm communicator = discretization.communicator();
     const double   distance     = Utilities::MPI::min(
       distance_of_other_cuts(discretization, cut, found->position),

@@ -61,10 +61,10 @@ cut("cut_closed", "energy release rate of crack end",
     ["'crack' is closed", "no tips"],
     "crack: uv closed (-0.3, -0.2) (0.3, -0.2) (0, 0.3)", remove="(0, 0, 0)")
 cut("cut_ends_outside", "kink angle of crack begin",
-    ["the begin of the cut 'crack'", "doesn't lie inside"],
+    ["the begin of the cut 'crack'", "outside of the surface"],
     "crack: uv (-1.1, -j) (i, j)")
 cut("cut_ends_on_cut", "K_M of crack end",
-    ["the end of the cut 'crack'", "lies on another cut"],
+    ["the end of the cut 'crack'", "or on another cut"],
     "crack: uv (-i, -j) (i, j); other: uv (i - 0.2, j) (i + 0.2, j)")
 cut("cut_beside_cut", "K_I of crack end radii 0.05, 0.2", ["another cut"],
     "crack: uv (-i, -j) (i, j); other: uv (-2, j + 0.05) (2, j + 0.05)", ())
