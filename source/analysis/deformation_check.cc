@@ -240,6 +240,7 @@ namespace Nacre
       ShellCellValues values(discretization,
                              Quadrature<dim>(lattice.points),
                              false);
+      values.use_tip_functions(false);
       ShellEdgeValues edge(discretization);
       Dofs            dofs(discretization.node_dofs().size());
       for (const CellPart &part : discretization.owned_parts())

@@ -19,7 +19,39 @@ namespace Nacre
            ++a)
         for (unsigned int c = 0; c < spacedim; ++c)
           result[c] += values.shapes().value(q, a) * u[values.dof(a, c)];
+      for (unsigned int k = 0; u.size() > 0 && k < values.n_tip_functions();
+           ++k)
+        result += u[values.tip_dof(k)] * values.tip_function(q, k).value;
       return result;
+    }
+
+    /** What @p force and its derivative K mean for functions of tips. */
+    void
+    add_tip_functions(const ShellCellValues     &values,
+                      const unsigned int         q,
+                      const Tensor<1, spacedim> &force,
+                      const Tensor<2, spacedim> &K,
+                      LocalTerms                &terms)
+    {
+      for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+        {
+          const unsigned int i     = values.tip_dof(k);
+          const auto        &psi   = values.tip_function(q, k).value;
+          const auto         K_psi = K * psi;
+          terms.residual[i] += psi * force;
+          if (!terms.wants_tangent)
+            continue;
+          for (unsigned int l = 0; l < values.n_tip_functions(); ++l)
+            terms.tangent(i, values.tip_dof(l)) +=
+              values.tip_function(q, l).value * K_psi;
+          for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                const double entry = values.shapes().value(q, a) * K_psi[c];
+                terms.tangent(i, values.dof(a, c)) += entry;
+                terms.tangent(values.dof(a, c), i) += entry;
+              }
+        }
     }
   } // namespace
 
@@ -79,6 +111,7 @@ namespace Nacre
                   terms.tangent(i, values.dof(b, d)) +=
                     shapes.value(q, a) * shapes.value(q, b) * K[c][d];
             }
+        add_tip_functions(values, q, force, K, terms);
       }
   }
 } // namespace Nacre

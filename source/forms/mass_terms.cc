@@ -9,6 +9,32 @@
 
 namespace Nacre
 {
+  namespace
+  {
+    /** Add dm psi_k . phi_i of a point for all dofs i of the part. */
+    void
+    add_tip_rows(const ShellCellValues &values,
+                 const unsigned int     q,
+                 const double           dm,
+                 FullMatrix<double>    &rows)
+    {
+      const unsigned int n_tip = values.n_tip_functions();
+      if (rows.m() == 0)
+        rows.reinit(n_tip, values.n_dofs());
+      for (unsigned int k = 0; k < n_tip; ++k)
+        {
+          const auto &psi = values.tip_function(q, k).value;
+          for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              rows(k, values.dof(a, c)) +=
+                dm * psi[c] * values.shapes().value(q, a);
+          for (unsigned int l = 0; l < n_tip; ++l)
+            rows(k, values.tip_dof(l)) +=
+              dm * (psi * values.tip_function(q, l).value);
+        }
+    }
+  } // namespace
+
   MassTerms::MassTerms(const Discretization &discretization,
                        const SectionLaw     &section)
     : discretization_(discretization)
@@ -52,6 +78,8 @@ namespace Nacre
               for (unsigned int a = 0; a < n; ++a)
                 for (unsigned int b = 0; b < n; ++b)
                   M(a, b) += dm * shapes.value(q, a) * shapes.value(q, b);
+              if (values.n_tip_functions() > 0)
+                add_tip_rows(values, q, dm, tip_rows_[part.index()]);
             }
         }
     });
@@ -65,20 +93,22 @@ namespace Nacre
     for (const auto &M : cell_matrices_)
       for (unsigned int a = 0; a < M.m(); ++a)
         sum += spacedim * M(a, a);
+    for (const auto &[index, rows] : tip_rows_)
+      for (unsigned int k = 0; k < rows.m(); ++k)
+        sum += rows(k, rows.n() - rows.m() + k);
     return Utilities::MPI::sum(sum, discretization_.communicator());
   }
 
   void
   MassTerms::vmult(Vector &result, const Vector &v) const
   {
-    result                = 0.;
-    const auto &node_dofs = discretization_.node_dofs();
-    std::vector<types::global_dof_index> dofs(node_dofs.size());
-    dealii::Vector<double>               local(node_dofs.size());
+    result = 0.;
+    std::vector<types::global_dof_index> dofs;
+    dealii::Vector<double>               local;
     for (const CellPart &part : discretization_.owned_parts())
       {
         discretization_.get_dof_indices(part, dofs);
-        local = 0.;
+        local.reinit(dofs.size());
         add_on_cell(part, dofs, v, 0., local, nullptr);
         result.add(dofs, std::vector<double>(local.begin(), local.end()));
       }
@@ -91,16 +121,16 @@ namespace Nacre
                              TrilinosWrappers::SparseMatrix  &matrix,
                              Vector &right_hand_side) const
   {
-    matrix                = 0.;
-    right_hand_side       = 0.;
-    const auto &node_dofs = discretization_.node_dofs();
-    std::vector<types::global_dof_index> dofs(node_dofs.size());
-    FullMatrix<double>     local(node_dofs.size(), node_dofs.size());
-    dealii::Vector<double> unused(node_dofs.size());
+    matrix          = 0.;
+    right_hand_side = 0.;
+    std::vector<types::global_dof_index> dofs;
+    FullMatrix<double>                   local;
+    dealii::Vector<double>               unused;
     for (const CellPart &part : discretization_.owned_parts())
       {
         discretization_.get_dof_indices(part, dofs);
-        local = 0.;
+        local.reinit(dofs.size(), dofs.size());
+        unused.reinit(dofs.size());
         add_on_cell(part, dofs, ghosted_b, 1., unused, &local);
         constraints.distribute_local_to_global(local, dofs, matrix);
       }
@@ -126,7 +156,7 @@ namespace Nacre
                          dealii::Vector<double>                     &residual,
                          FullMatrix<double> *tangent) const
   {
-    const auto &M         = cell_matrix(part);
+    const auto &M         = cell_matrices_[part.index()];
     const auto &node_dofs = discretization_.node_dofs();
     for (unsigned int a = 0; a < M.m(); ++a)
       for (unsigned int b = 0; b < M.n(); ++b)
@@ -138,6 +168,24 @@ namespace Nacre
             if (tangent != nullptr)
               (*tangent)(i, j) += factor * M(a, b);
           }
+    const auto found = tip_rows_.find(part.index());
+    if (found == tip_rows_.end())
+      return;
+    const auto        &rows  = found->second;
+    const unsigned int first = rows.n() - rows.m();
+    const auto         add =
+      [&](const unsigned int i, const unsigned int j, const double m) {
+        residual[i] += m * w(dofs[j]);
+        if (tangent != nullptr)
+          (*tangent)(i, j) += factor * m;
+      };
+    for (unsigned int k = 0; k < rows.m(); ++k)
+      for (unsigned int j = 0; j < rows.n(); ++j)
+        {
+          add(first + k, j, rows(k, j));
+          if (j < first)
+            add(j, first + k, rows(k, j));
+        }
   }
 
   Inertia::Inertia(const MassTerms                     &mass,

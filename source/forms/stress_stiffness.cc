@@ -56,6 +56,37 @@ namespace Nacre
           }
     }
 
+    /** The same of the functions of tips, where strains are not tied. */
+    void
+    add_tip_products(const ShellCellValues      &values,
+                     const std::vector<Voigt<>> &forces,
+                     FullMatrix<double>         &local)
+    {
+      const auto &shapes = values.shapes();
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+          {
+            const auto        &n   = forces[q];
+            const auto        &psi = values.tip_function(q, k).first;
+            const auto         p_1 = n[0] * psi[0] + n[2] * psi[1];
+            const auto         p_2 = n[2] * psi[0] + n[1] * psi[1];
+            const unsigned int i   = values.tip_dof(k);
+            for (unsigned int l = 0; l < values.n_tip_functions(); ++l)
+              {
+                const auto &other = values.tip_function(q, l).first;
+                local(i, values.tip_dof(l)) += other[0] * p_1 + other[1] * p_2;
+              }
+            for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+              for (unsigned int c = 0; c < spacedim; ++c)
+                {
+                  const auto  &dN    = shapes.gradient(q, a);
+                  const double entry = dN[0] * p_1[c] + dN[1] * p_2[c];
+                  local(i, values.dof(a, c)) += entry;
+                  local(values.dof(a, c), i) += entry;
+                }
+          }
+    }
+
     Voigt<>
     strain_of_rows(const FullMatrix<double>  &rows,
                    const unsigned int         q,
@@ -132,8 +163,8 @@ namespace Nacre
       reduced = std::make_unique<ShellCellValues>(discretization_,
                                                   element.reduced_quadrature(),
                                                   false);
-    std::vector<types::global_dof_index> dofs(full.n_dofs());
-    FullMatrix<double>                   local(dofs.size(), dofs.size());
+    std::vector<types::global_dof_index> dofs;
+    FullMatrix<double>                   local;
     std::vector<Voigt<>>                 at_points;
     const auto add_points = [&](const ShellCellValues &values,
                                 const double           share) {
@@ -143,12 +174,13 @@ namespace Nacre
       add_gradient_products(values,
                             forces_at_tying_points(values.tying(), at_points),
                             local);
+      add_tip_products(values, at_points, local);
     };
     run_on_all_ranks(discretization_.communicator(), [&]() {
       for (const CellPart &part : discretization_.owned_parts())
         {
           discretization_.get_dof_indices(part, dofs);
-          local = 0.;
+          local.reinit(dofs.size(), dofs.size());
           full.reinit(part);
           const double share =
             reduced ? full_integration_share(full, section_) : 1.;

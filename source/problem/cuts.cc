@@ -353,8 +353,8 @@ namespace Nacre
                   "inside a cell. 'closed': the crack closes at the edge by "
                   "which it enters that cell. 'branch functions': the singular "
                   "fields of Williams around the tip's very place are added, "
-                  "with coefficients of their own; for Type = linear of a "
-                  "homogeneous isotropic section, with the direct solver.",
+                  "with coefficients of their own; for Kinematics = linear and "
+                  "a homogeneous isotropic section, with the direct solver.",
                   prm);
   }
 

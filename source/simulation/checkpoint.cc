@@ -20,6 +20,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 namespace Nacre
@@ -29,7 +30,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 5";
+    const std::string layout = "nacre checkpoint 6";
 
     std::array<Vector *, 3>
     vectors_of(CheckpointData &data)
@@ -66,7 +67,6 @@ namespace Nacre
     explicit CellValues(const Discretization &discretization)
       : discretization_(discretization)
       , owned_(discretization.locally_owned_dofs())
-      , dofs_(discretization.node_dofs().size())
     {
       for (const CellPart &part : discretization.owned_parts())
         missing_.emplace(key_of(part), part);
@@ -77,7 +77,7 @@ namespace Nacre
     void
     write(Archive &archive, const std::vector<Vector> &vectors)
     {
-      std::vector<unsigned int> keys;
+      std::vector<unsigned int> keys, sizes;
       std::vector<double>       values;
       for (const CellPart &part : discretization_.owned_parts())
         {
@@ -87,12 +87,13 @@ namespace Nacre
             values.insert(values.end(), x.begin_raw(), x.end_raw());
           values.push_back(fraction_of(part));
           discretization_.get_dof_indices(part, dofs_);
+          sizes.push_back(dofs_.size());
           for (const Vector &vector : vectors)
             for (const auto dof : dofs_)
               values.push_back(vector(dof));
         }
-      unsigned int           n_dofs = dofs_.size();
-      archive &n_dofs &keys &values;
+      unsigned int                  n_dofs = discretization_.node_dofs().size();
+      archive &n_dofs &keys &sizes &values;
     }
 
     /**
@@ -105,30 +106,36 @@ namespace Nacre
          const std::array<Vector *, 3> &vectors,
          const std::string             &file)
     {
-      unsigned int              n_dofs = 0;
-      std::vector<unsigned int> keys;
-      std::vector<double>       values;
-      archive &n_dofs &keys    &values;
-      Key                       key;
-      const std::size_t         n_cells  = keys.size() / key.size();
-      const std::size_t         n_values = (1 + vectors.size()) * n_dofs + 1;
-      AssertThrow(n_dofs == dofs_.size() && values.size() == n_cells * n_values,
+      unsigned int                  n_dofs = 0;
+      std::vector<unsigned int>     keys, sizes;
+      std::vector<double>           values;
+      archive &n_dofs &keys &sizes &values;
+      const unsigned int            n_here = discretization_.node_dofs().size();
+      const std::size_t             n_cells = sizes.size();
+      const std::size_t             n_values =
+        n_cells * (n_dofs + 1) +
+        vectors.size() * std::accumulate(sizes.begin(), sizes.end(), 0ul);
+      AssertThrow(n_dofs == n_here && values.size() == n_values,
                   ExcMessage(file + "' is of another element: " +
                              std::to_string(n_dofs) + " unknowns a cell, and " +
-                             std::to_string(dofs_.size()) + " here."));
+                             std::to_string(n_here) + " here."));
+      Key  key;
+      auto next = values.begin();
       for (std::size_t k = 0; k < n_cells; ++k)
         {
+          auto value = next;
+          next += n_dofs + 1 + vectors.size() * sizes[k];
           std::copy_n(keys.begin() + k * key.size(), key.size(), key.begin());
           const auto found = missing_.find(key);
           if (found == missing_.end())
             continue;
           discretization_.get_dof_indices(found->second, dofs_);
-          auto value = values.begin() + k * n_values;
           check_positions(found->second, &*value, file);
           value += n_dofs;
-          AssertThrow(std::abs(*value - fraction_of(found->second)) <= 1e-6,
+          AssertThrow(std::abs(*value - fraction_of(found->second)) <= 1e-6 &&
+                        sizes[k] == dofs_.size(),
                       ExcMessage(file + "' is of a shell with other cuts "
-                                        "(Cuts/Cuts)."));
+                                        "(Cuts/Cuts, Tips)."));
           ++value;
           for (Vector *const vector : vectors)
             for (const auto dof : dofs_)

@@ -215,6 +215,32 @@ namespace Nacre
   }
 
   void
+  ProblemParameters::check_tips(const ShellProblem &problem)
+  {
+    if (problem.model.cuts.tips == CutTips::closed)
+      return;
+    const KinematicsOptions &options = problem.model.kinematics;
+    AssertThrow(options.model == KinematicsModel::linear &&
+                  options.edge_form == EdgeForm::rotation_jump,
+                ExcMessage("Cuts/Tips: 'branch functions' are those of "
+                           "'Kinematics = linear' and 'Edge form = rotation "
+                           "jump'; choose 'closed'."));
+    const PrestressKind prestress = problem.modes.prestress;
+    AssertThrow(!seeks_modes(problem.path.type) ||
+                  (prestress != PrestressKind::forces_and_moments &&
+                   prestress != PrestressKind::tangent),
+                ExcMessage("Analysis/Prestress: '" + name_of(prestress) +
+                           "' takes finite rotations, which know no 'Cuts/Tips "
+                           "= branch functions'; choose 'linear', or tips that "
+                           "are 'closed'."));
+    AssertThrow(!problem.growth.is_on() || problem.path.is_linear(),
+                ExcMessage("Growth/Tips: 'Cuts/Tips = branch functions' grow "
+                           "in linear analyses only; choose 'closed' with "
+                           "'Analysis/Type = " +
+                           name_of(problem.path.type) + "'."));
+  }
+
+  void
   ProblemParameters::check(const ShellProblem &problem)
   {
     const KinematicsOptions &options = problem.model.kinematics;
@@ -278,13 +304,7 @@ namespace Nacre
                 ExcMessage(
                   "Discretization/Assembly: 'reference' knows no cells "
                   "that cuts (Cuts/Cuts) divide; choose 'fast'."));
-    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
-                  (problem.path.is_linear() && linear_kinematics &&
-                   options.edge_form == EdgeForm::rotation_jump),
-                ExcMessage("Cuts/Tips: 'branch functions' are those of "
-                           "'Analysis/Type = linear', 'Kinematics = linear' "
-                           "and 'Edge form = rotation jump'; choose "
-                           "'closed'."));
+    check_tips(problem);
     AssertThrow((!problem.path.is_linear() &&
                  !seeks_modes(problem.path.type)) ||
                   !problem.model.foundation.is_nonlinear(),

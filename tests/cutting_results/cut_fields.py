@@ -117,16 +117,25 @@ def check_estimates(runs):
 
 
 def check_restart(runs):
-    path = {"Discretization/Kinematics": "finite", "Study/Degrees": "2",
-            "Loads/Edge_forces": "u=1: 0, 0, .1*if(y < y0, 1, -2.5)",
-            "Analysis/Type": "static", "Analysis/Time_step": ".5",
-            "Analysis/Checkpoint_steps": "1",
-            "Quantities/Quantities": "w = displacement z at (L, 0, 0)"}
-    whole = runs.run("path", **path)
-    runs.run("again", **path, **{"Analysis/End_time": ".5"})
-    again = runs.run("again", "--restart", **path)
-    return {"a path goes on": abs(again["w"] - whole["w"])
-            < 1e-8 * abs(whole["w"])}
+    common = {"Study/Degrees": "2", "Analysis/Time_step": ".5",
+              "Analysis/Checkpoint_steps": "1",
+              "Quantities/Quantities": "w = displacement z at (L, 0, 0)"}
+    paths = {"a path goes on":
+             {"Discretization/Kinematics": "finite",
+              "Loads/Edge_forces": "u=1: 0, 0, .1*if(y < y0, 1, -2.5)",
+              "Analysis/Type": "static"},
+             # The state of a motion holds the coefficients of the tip.
+             "a motion with functions of a tip goes on":
+             {"Cuts/Cuts": "slit: uv (.53*L, .37) (1.1*L, .37)",
+              "Cuts/Tips": "branch functions", "Section/Density": "1e4",
+              "Analysis/Type": "dynamic"}}
+    checks = {}
+    for name, path in paths.items():
+        whole = runs.run("path", **common, **path)
+        runs.run("again", **common, **path, **{"Analysis/End_time": ".5"})
+        again = runs.run("again", "--restart", **common, **path)
+        checks[name] = (abs(again["w"] - whole["w"]) < 1e-8 * abs(whole["w"]))
+    return checks
 
 
 def main():

@@ -20,9 +20,12 @@ def case(name, expect, settings, args=()):
 case("finite", ["Cuts/Tips", "'Kinematics = linear'", "'closed'"],
      {"Discretization/Kinematics": "finite", "Analysis/Type": "static"},
      ["--check"])
-case("modes", ["Cuts/Tips", "'Analysis/Type = linear'"],
-     {"Analysis/Type": "vibration", "Section/Density": "1",
+case("prestress", ["Analysis/Prestress", "'tangent'", "'linear'", "closed"],
+     {"Analysis/Type": "buckling", "Analysis/Prestress": "tangent",
       "Quantities/Quantities": ""}, ["--check"])
+case("growing_path", ["Growth/Tips", "'Cuts/Tips = branch functions'"],
+     {"Analysis/Type": "static", "Growth/Tips": "crack end",
+      "Growth/Toughness": "1", "Quantities/Quantities": ""}, ["--check"])
 case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
      {"Section/Type": "laminate", "Quantities/Quantities": "",
       "Section/Laminate/Materials":

@@ -10,6 +10,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace Nacre
@@ -31,13 +32,6 @@ namespace Nacre
 
     /** A mass of 1 per area. */
     explicit MassTerms(const Discretization &discretization);
-
-    /** M_ab of the nodes of one of this rank's parts (mass). */
-    const FullMatrix<double> &
-    cell_matrix(const CellPart &part) const
-    {
-      return cell_matrices_[part.index()];
-    }
 
     /**
      * Add M w of the ghosted vector @p w on a cell with the dofs @p dofs to
@@ -83,8 +77,10 @@ namespace Nacre
       const std::function<double(const SectionPoint &)> &area_density);
 
     const Discretization           &discretization_;
-    std::vector<FullMatrix<double>> cell_matrices_; // by active cell index
-    double                          total_ = 0.;
+    std::vector<FullMatrix<double>> cell_matrices_; // by part
+    /** Of parts that have functions of tips: [k][i], i any dof of the part. */
+    std::map<unsigned int, FullMatrix<double>> tip_rows_;
+    double                                     total_ = 0.;
   };
 
   struct StepStart;

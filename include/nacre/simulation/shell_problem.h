@@ -141,6 +141,10 @@ namespace Nacre
     static void
     check(const ShellProblem &problem);
 
+    /** What the tips of cuts may have functions in. */
+    static void
+    check_tips(const ShellProblem &problem);
+
     std::unique_ptr<SectionLaw> section_;
     MidsurfaceParameters        midsurface_;
     BoundaryConditionParameters supports_;
