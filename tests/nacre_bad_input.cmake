@@ -20,7 +20,8 @@ function(nacre_bad_input folder cases every)
     endif()
     foreach(n ${ranks})
       add_test(NAME ${folder}/${name}.np${n}
-        COMMAND ${PYTHON3} ${driver} $<TARGET_FILE:nacre> ${n} ${cases} ${name})
+        COMMAND ${PYTHON3} -S ${driver} $<TARGET_FILE:nacre> ${n} ${cases}
+                ${name})
       # bad_input.py itself ends what hangs, after 20 seconds a run.
       set_tests_properties(${folder}/${name}.np${n} PROPERTIES
         TIMEOUT 100 PROCESSORS ${n})
