@@ -177,8 +177,6 @@ namespace Nacre
         const StepStart start = system_.step_start(state.motion.u);
         system_.hold(state.motion.u, inertia_at(w, start), duration);
       }
-    else
-      balance_acceleration(state);
     state.balance =
       ledger_->after_cut(state.balance, state.motion, parameters_.time_step);
     return "";

@@ -63,7 +63,7 @@ namespace Nacre
     /**
      * Go on from a @p state with shorter cuts. In statics that is settle(). In
      * dynamics what the lips have carried falls to zero within @p duration,
-     * or, if that is 0, is gone, and accelerations jump. Collective.
+     * or, if that is 0, is missing in the next step. Collective.
      */
     std::string
     resume(PathState &state, const double duration);
