@@ -42,6 +42,19 @@ namespace Nacre
     return balance;
   }
 
+  EnergyBalance
+  EnergyLedger::after_cut(const EnergyBalance &before,
+                          const MotionState   &motion,
+                          const double         dt) const
+  {
+    const EnergyBalance now = start(motion, dt);
+    EnergyBalance       after(before);
+    after.kinetic = now.kinetic;
+    after.strain  = now.strain;
+    after.released += before.kinetic + before.strain - now.initial;
+    return after;
+  }
+
   double
   EnergyLedger::reaction_work(const Step &step, const Vector &mean) const
   {
@@ -110,6 +123,9 @@ namespace Nacre
     Vector loads = system_.owned_vector();
     shell.loads(ghosted_mean, loads, system_.actions().loads, &step.step_start);
     after.external_work += loads * change;
+    Vector held = system_.owned_vector();
+    system_.add_held_forces(1., held);
+    after.released -= held * change;
     if (damping_ > 0.)
       after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);
 

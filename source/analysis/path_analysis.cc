@@ -61,10 +61,9 @@ namespace Nacre
       motion.v = start->v;
     motion.v += system_.interpolate(std::cref(parameters_.initial_velocity));
     system_.constraints().distribute(motion.u);
-    motion.a      = system_.acceleration(motion.u,
-                                    motion.v,
-                                    parameters_.mass_damping,
-                                    *mass_);
+    const Vector w =
+      system_.with_ghosts(inertial_acceleration(motion)); // a is zero
+    motion.a = system_.acceleration(motion.u, Inertia(*mass_, w, 0.), *mass_);
     state.balance = ledger_->start(motion, parameters_.time_step);
     return state;
   }
@@ -136,6 +135,50 @@ namespace Nacre
     if (!attempt.result.converged)
       return attempt.result.reason;
     std::move(attempt).accept(system_, state);
+    return "";
+  }
+
+  PathAnalysis::Vector
+  PathAnalysis::inertial_acceleration(const MotionState &motion) const
+  {
+    Vector w(motion.a);
+    w.add(parameters_.mass_damping, motion.v);
+    return w;
+  }
+
+  Inertia
+  PathAnalysis::inertia_at(const Vector &w, const StepStart &start) const
+  {
+    const bool conserves = (parameters_.scheme == TimeScheme::energy_momentum);
+    return {*mass_, w, 0., conserves ? &start : nullptr};
+  }
+
+  void
+  PathAnalysis::balance_acceleration(PathState &state)
+  {
+    MotionState &motion = state.motion;
+    system_.set_time(state.time);
+    // What is out of balance alone: supports may have accelerations.
+    const Vector    w     = system_.with_ghosts(inertial_acceleration(motion));
+    const StepStart start = system_.step_start(motion.u);
+    motion.a += system_.acceleration(motion.u, inertia_at(w, start), *mass_);
+  }
+
+  std::string
+  PathAnalysis::resume(PathState &state, const double duration)
+  {
+    if (!parameters_.is_dynamic())
+      return settle(state);
+    system_.set_time(state.time);
+    if (duration > 0.)
+      {
+        const Vector w =
+          system_.with_ghosts(inertial_acceleration(state.motion));
+        const StepStart start = system_.step_start(state.motion.u);
+        system_.hold(state.motion.u, inertia_at(w, start), duration);
+      }
+    state.balance =
+      ledger_->after_cut(state.balance, state.motion, parameters_.time_step);
     return "";
   }
 

@@ -54,25 +54,38 @@ namespace Nacre
   void
   ShellSystem::set_load_time(const double time)
   {
-    actions_ = assembly_.actions(model_.at(time));
+    actions_    = assembly_.actions(model_.at(time));
+    held_share_ = held_.share(time);
   }
 
   void
   ShellSystem::set_force_time(const double time)
   {
     actions_.loads = model_.at(time);
+    held_share_    = held_.share(time);
+  }
+
+  void
+  ShellSystem::hold(const Vector  &u,
+                    const Inertia &inertia,
+                    const double   duration)
+  {
+    Vector force = owned_vector();
+    assembly_.residual(with_ghosts(u), actions_, force, &inertia);
+    condense(homogeneous_constraints(), force);
+    held_       = {force, actions_.loads.time, duration};
+    held_share_ = held_.share(held_.start);
   }
 
   ShellSystem::Vector
   ShellSystem::acceleration(const Vector    &u,
-                            const Vector    &v,
-                            const double     damping,
+                            const Inertia   &inertia,
                             const MassTerms &mass)
   {
-    Vector force = owned_vector(), damping_force = owned_vector();
-    assembly_.residual(with_ghosts(u), actions_, force);
-    mass.vmult(damping_force, with_ghosts(v));
-    force.sadd(-1., -damping, damping_force);
+    Vector force = owned_vector();
+    assembly_.residual(with_ghosts(u), actions_, force, &inertia);
+    add_held_forces(-1., force);
+    force *= -1.;
 
     const AffineConstraints<double> homogeneous = homogeneous_constraints();
     has_tangent_                                = false;
@@ -372,6 +385,7 @@ namespace Nacre
         energies_ = assembly_.residual(u, actions_, right_hand_side, inertia);
         right_hand_side *= -1.;
         condense(constraints, right_hand_side);
+        add_held_forces(1., right_hand_side);
         return std::isfinite(right_hand_side.l2_norm()) ? StepFailure() :
                                                           not_finite(u);
       }
@@ -384,6 +398,7 @@ namespace Nacre
                                      matrix_,
                                      right_hand_side,
                                      inertia);
+      add_held_forces(1., right_hand_side);
     }
     if (!std::isfinite(energies_.total() + right_hand_side.l2_norm() +
                        matrix_.frobenius_norm()))
@@ -451,6 +466,7 @@ namespace Nacre
     const CpuSum time(assembly_seconds_);
     Vector       residual = owned_vector();
     assembly_.residual(with_ghosts(u), actions_, residual, inertia);
+    add_held_forces(-1., residual);
     Vector free(du);
     for (const auto &line : constraints().get_lines())
       if (line.entries.empty() &&

@@ -5,15 +5,15 @@
 
 namespace Nacre
 {
-  CrackPoints::CrackPoints(const ShellState      &state,
+  CrackPoints::CrackPoints(const SolvedShell     &shell,
                            const Quadrature<dim> &points)
-    : state_(state)
-    , is_linear_(state.model.kinematics.model == KinematicsModel::linear)
+    : shell_(shell)
+    , is_linear_(shell.model.kinematics.model == KinematicsModel::linear)
     , quadrature_(points)
-    , strains_(state, points)
-    , u_(state.discretization.node_dofs().size())
+    , strains_(shell, points)
+    , u_(shell.discretization.node_dofs().size())
   {
-    const auto &fe = state.discretization.geometry_fe();
+    const auto &fe = shell.discretization.geometry_fe();
     for (const auto &point : points.get_points())
       for (unsigned int b = 0; b < fe.n_dofs_per_cell(); ++b)
         {
@@ -27,11 +27,15 @@ namespace Nacre
   {
     strains_.reinit(part);
     std::vector<types::global_dof_index> dofs;
-    state_.discretization.get_dof_indices(part, dofs);
+    shell_.discretization.get_dof_indices(part, dofs);
     u_.reinit(dofs.size(), true);
     for (unsigned int i = 0; i < dofs.size(); ++i)
-      u_[i] = state_.displacement(dofs[i]);
-    nodes_ = state_.discretization.geometry_nodes(part);
+      u_[i] = shell_.displacement(dofs[i]);
+    acceleration_.reinit(dofs.size());
+    if (shell_.acceleration != nullptr)
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        acceleration_[i] = (*shell_.acceleration)(dofs[i]);
+    nodes_ = shell_.discretization.geometry_nodes(part);
   }
 
   SurfacePatch
@@ -46,6 +50,19 @@ namespace Nacre
       for (unsigned int k = 0; k < 4; ++k)
         patch.third[k] += third_[q * nodes_.size() + b][k] * nodes_[b];
     return patch;
+  }
+
+  Tensor<1, spacedim>
+  CrackPoints::acceleration(const unsigned int q) const
+  {
+    const auto         &values = strains_.values();
+    Tensor<1, spacedim> acceleration;
+    // Tips have no functions in dynamics.
+    for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+      for (unsigned int c = 0; c < spacedim; ++c)
+        acceleration[c] +=
+          values.shapes().value(q, a) * acceleration_[values.dof(a, c)];
+    return acceleration;
   }
 
   VectorDerivatives

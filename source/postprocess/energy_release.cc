@@ -136,21 +136,25 @@ namespace Nacre
              A * in_plane(X.first) * in_plane(v);
     }
 
-    /** The force per area of the undeformed surface (force/length^2). */
+    /**
+     * The force per area of the undeformed surface (force/length^2), that of
+     * inertia and of mass damping included: d'Alembert's -rho h (a + c v). The
+     * kinetic energy that moves along with the points has no part in G.
+     */
     Vector3
     surface_load(const SolvedShell       &shell,
+                 const CrackPoints       &points,
+                 const unsigned int       q,
                  const SectionPoint      &x,
-                 const SurfaceFrame<>    &frame,
                  const VectorDerivatives &u)
     {
+      const auto    &frame   = points.frame(q);
       const Loads   &loads   = shell.model.loads;
       const auto    &section = shell.model.section;
       const Instant &instant = shell.actions.loads;
-      Vector3        load =
-        loads.force_per_area(x,
-                             frame.t0,
-                             section.density(x) * section.thickness(x),
-                             instant);
+      const double   mass    = section.density(x) * section.thickness(x);
+      Vector3        load = loads.force_per_area(x, frame.t0, mass, instant) -
+                     mass * points.acceleration(q);
       if (loads.pressure_follows())
         load += loads.pressure(x, instant) / frame.j0 *
                 cross_product_3d(frame.a_cov[0] + u.first[0],
@@ -181,11 +185,10 @@ namespace Nacre
   void
   EnergyRelease::check_model() const
   {
-    AssertThrow(shell_.mass == nullptr && shell_.modes == nullptr,
+    AssertThrow(shell_.modes == nullptr,
                 ExcMessage(where_ + "energy release rates and stress "
-                                    "intensity factors are those of statics: "
-                                    "forces of inertia are left out, and "
-                                    "modes have no size."));
+                                    "intensity factors are those of statics "
+                                    "and of motions; modes have no size."));
     AssertThrow(shell_.model.foundation.is_zero(),
                 ExcMessage(where_ + "lies a foundation, whose energy these "
                                     "quantities don't know."));
@@ -390,7 +393,7 @@ namespace Nacre
         const auto           u      = points.derivatives(q);
         const auto           tying  = points.tying(q);
         const double         weight = points.weight(q);
-        const auto load   = surface_load(shell_, surface.position, frame, u);
+        const auto load = surface_load(shell_, points, q, surface.position, u);
         const auto change = [&](const VectorDerivatives &v) {
           return energy_change(shell_.section(),
                                is_linear,

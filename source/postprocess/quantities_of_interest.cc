@@ -169,6 +169,7 @@ namespace Nacre
          of_balance(&EnergyBalance::prescribed_work),
          false},
         {"dissipation", of_balance(&EnergyBalance::dissipation), false},
+        {"released energy", of_balance(&EnergyBalance::released), false},
         {"energy balance", of_balance(&EnergyBalance::gain), false},
         {"momentum x", momentum(0, false), false},
         {"momentum y", momentum(1, false), false},
@@ -472,7 +473,8 @@ namespace Nacre
       "[x|y|z|normal|(a, b, c)] of CUT at (point), the left lip less the right "
       "one; in dynamics kinetic energy, total energy, "
       "external work, work "
-      "of prescribed motion, dissipation (by mass damping), energy balance "
+      "of prescribed motion, dissipation (by mass damping), released "
+      "energy (where cuts grow), energy balance "
       "(gained by the scheme), momentum x|y|z, angular momentum x|y|z about "
       "the origin; in buckling load factor NUMBER, in vibration omega NUMBER "
       "(of time) and frequency NUMBER, omega/(2 pi), in both multiplicity "

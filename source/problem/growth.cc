@@ -15,6 +15,7 @@ namespace Nacre
     const std::string direction_parameter = "Growth/Direction";
     const std::string step_parameter      = "Growth/Step";
     const std::string length_parameter    = "Growth/Length";
+    const std::string release_parameter   = "Growth/Release time";
 
     double
     positive_number(const std::string &text,
@@ -124,6 +125,14 @@ namespace Nacre
                   "Along a path with the criterion prescribed: the length by "
                   "which each tip has advanced at the time t, an expression "
                   "of t, in whole steps. Units: length.");
+    add_parameter("Release time",
+                  release_text_,
+                  "In dynamics: the time in which the forces between the lips "
+                  "of a step's new cut fall to zero, whose work the fracture "
+                  "takes; a time step at least. 0: they vanish at once, and "
+                  "the energy goes into vibration. default: the time that a "
+                  "Rayleigh wave takes for the step. No tip advances as long "
+                  "as lips are being released. Units: time.");
     add_parameter("Maximum steps",
                   maximum_steps_,
                   "Steps of growth in all, after which the cuts stay as they "
@@ -155,6 +164,7 @@ namespace Nacre
     read_criterion(constants, is_path, growth);
     read_direction(constants, has_intensities, growth);
     read_step(constants, growth);
+    read_release(constants, growth);
     return growth;
   }
 
@@ -256,5 +266,20 @@ namespace Nacre
     AssertThrow(!growth.step_is_in_cells || growth.step >= 1.,
                 ExcMessage(step_parameter + ": found '" + step_text_ +
                            "'; a tip advances by a cell at least, '1 cells'."));
+  }
+
+  void
+  GrowthParameters::read_release(const Constants &constants,
+                                 Growth          &growth) const
+  {
+    const std::string text = Text::trim(release_text_);
+    if (text == "default")
+      return;
+    const double time = evaluate_number(text, release_parameter, constants);
+    AssertThrow(time >= 0.,
+                ExcMessage(release_parameter + ": '" + text +
+                           "' is negative; give a time, 0 for lips that are "
+                           "free at once, or 'default'."));
+    growth.release_time = time;
   }
 } // namespace Nacre

@@ -284,11 +284,17 @@ namespace Nacre
       return;
     const PathParameters &path = problem.path;
     AssertThrow(path.is_linear() || path.type == AnalysisType::quasi_static ||
-                  path.type == AnalysisType::relaxation,
+                  path.type == AnalysisType::relaxation || path.is_dynamic(),
                 ExcMessage(
                   "Growth/Tips: with 'Analysis/Type = " + name_of(path.type) +
-                  "' cuts don't grow; choose 'linear', 'static' or "
-                  "'relaxation', or 'Tips = none'."));
+                  "' cuts don't grow; choose 'linear', 'static', 'relaxation' "
+                  "or 'dynamic', or 'Tips = none'."));
+    AssertThrow(!problem.growth.release_time || path.is_dynamic(),
+                ExcMessage("Growth/Release time: with 'Analysis/Type = " +
+                           name_of(path.type) +
+                           "' lips are free at once, since it has no inertia; "
+                           "leave it out, or choose 'Analysis/Type = "
+                           "dynamic'."));
     AssertThrow(problem.growth.is_prescribed() || !path.is_linear() ||
                   !problem.model.section.has_initial_strain(),
                 ExcMessage(

@@ -151,6 +151,7 @@ namespace Nacre
       shell.assembly().residual(modes.state, actions, residual),
       nullptr,
       nullptr,
+      nullptr,
       {},
       &modes.values};
     const auto row = recorder.make_row(solved, record);

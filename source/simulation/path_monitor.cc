@@ -300,8 +300,10 @@ namespace Nacre
       line << std::setprecision(3) << ", energy: kinetic " << balance.kinetic
            << ", strain " << balance.strain << ", work "
            << balance.external_work + balance.prescribed_work << ", damped "
-           << balance.dissipation << ", gain " << std::setprecision(1)
-           << balance.relative_gain();
+           << balance.dissipation;
+      if (balance.released != 0.)
+        line << ", released " << balance.released;
+      line << ", gain " << std::setprecision(1) << balance.relative_gain();
     }
   } // namespace
 

@@ -329,7 +329,7 @@ namespace Nacre
       refines =
         n_refinements_ < adaptive_.n_cycles() && adaptive_.is_due(step.step);
       grows = false;
-      if (growth_.is_on() && !growth_.has_ended())
+      if (looks_at_tips(step))
         {
           observe_growth(step);
           grows = growth_.is_due(step.time);

@@ -28,6 +28,17 @@ namespace Nacre
 
   namespace
   {
+    /** a + c v, ghosted. */
+    TrilinosWrappers::MPI::Vector
+    acceleration_at(const PathState      &state,
+                    const PathParameters &path,
+                    const ShellSystem    &system)
+    {
+      TrilinosWrappers::MPI::Vector w(state.motion.a);
+      w.add(path.mass_damping, state.motion.v);
+      return system.with_ghosts(w);
+    }
+
     TrilinosWrappers::MPI::Vector
     displacement_at(const PathState &state, ShellSystem &system)
     {
@@ -42,6 +53,7 @@ namespace Nacre
                            ShellSystem         &system)
     : displacement_(displacement_at(state, system))
     , velocity_(system.with_ghosts(state.motion.v))
+    , acceleration_(acceleration_at(state, shell.problem().path, system))
     , residual_(shell.owned_vector())
     , shell_{{shell.discretization(),
               shell.problem().model,
@@ -51,15 +63,15 @@ namespace Nacre
              system.actions(),
              shell.conditions(),
              residual_,
-             forces(state, shell, path, system),
+             forces(shell, path, system),
              path.dynamic_mass(),
              &velocity_,
+             path.dynamic_mass() != nullptr ? &acceleration_ : nullptr,
              state.balance}
   {}
 
   Energies
-  SolvedState::forces(const PathState     &state,
-                      const DiscreteShell &shell,
+  SolvedState::forces(const DiscreteShell &shell,
                       const PathAnalysis  &path,
                       const ShellSystem   &system)
   {
@@ -67,13 +79,10 @@ namespace Nacre
     const Assembly        &assembly = shell.assembly();
     if (mass == nullptr)
       return assembly.residual(displacement_, system.actions(), residual_);
-    Vector w(state.motion.a);
-    w.add(shell.problem().path.mass_damping, state.motion.v);
-    const Vector  ghosted_w = system.with_ghosts(w);
-    const Inertia inertia{*mass, ghosted_w, 0.};
-    return assembly.residual(displacement_,
-                             system.actions(),
-                             residual_,
-                             &inertia);
+    const Inertia inertia{*mass, acceleration_, 0.};
+    const auto    energies =
+      assembly.residual(displacement_, system.actions(), residual_, &inertia);
+    system.add_held_forces(-1., residual_);
+    return energies;
   }
 } // namespace Nacre

@@ -87,8 +87,16 @@ case("growth_short_step", ["Growth/Step: at the tip 'slit end'", "too short"],
      args=(), Step="0.01")
 case("growth_of_modes", ["Growth/Tips", "'Analysis/Type = vibration'"],
      **{"Analysis/Type": "vibration"})
-case("growth_dynamic", ["Growth/Tips", "'Analysis/Type = dynamic'"],
-     **{"Analysis/Type": "dynamic"})
+case("growth_arc_length", ["Growth/Tips", "'Analysis/Type = arc length'",
+                           "'dynamic'"], **{"Analysis/Type": "arc length"})
+case("growth_release_in_statics",
+     ["Growth/Release time", "'Analysis/Type = static'", "dynamic"],
+     Release_time="0.1", **{"Analysis/Type": "static"})
+case("growth_negative_release", ["Growth/Release time: '-1' is negative"],
+     Release_time="-1", **{"Analysis/Type": "dynamic"})
+case("growth_restart_in_dynamics", ["--restart", "Growth/Tips"],
+     args=("--restart",), **{"Analysis/Type": "dynamic",
+                             "Section/Density": "1"})
 case("growth_restart", ["--restart", "Growth/Tips"], args=("--restart",),
      **{"Analysis/Type": "static"})
 case("growth_adaptive", ["Adaptive refinement/Cycles", "Growth/Tips"],

@@ -20,6 +20,7 @@ namespace Nacre
    *                      the prescribed displacements, and the moments of the
    *                      supports times that of the prescribed rotations
    * dissipation          c M Delta u . Delta u / Delta t, of mass damping
+   * released             -p(t_m) . Delta u of the forces that hold lips
    */
   class EnergyLedger
   {
@@ -51,6 +52,15 @@ namespace Nacre
      */
     EnergyBalance
     start(const MotionState &motion, const double dt) const;
+
+    /**
+     * The balance of a motion that goes on with longer cuts; collective.
+     * @param dt as of start()
+     */
+    EnergyBalance
+    after_cut(const EnergyBalance &before,
+              const MotionState   &motion,
+              const double         dt) const;
 
     /**
      * The balance after a @p step. Leaves the loads of the middle of the step

@@ -53,6 +53,21 @@ namespace Nacre
     std::string
     settle(PathState &state);
 
+    /**
+     * Give a motion the accelerations of its forces at its time: where a cut
+     * grows, time integrators begin anew. Collective.
+     */
+    void
+    balance_acceleration(PathState &state);
+
+    /**
+     * Go on from a @p state with shorter cuts. In statics that is settle(). In
+     * dynamics what the lips have carried falls to zero within @p duration,
+     * or, if that is 0, is missing in the next step. Collective.
+     */
+    std::string
+    resume(PathState &state, const double duration);
+
     /** Of a path along which t is unknown; null for others. */
     EquilibriumCurve *
     curve()
@@ -69,6 +84,14 @@ namespace Nacre
 
   private:
     using Attempt = PathAttempt;
+
+    /** a + c v (length/time^2), whose mass times it the forces bear. */
+    Vector
+    inertial_acceleration(const MotionState &motion) const;
+
+    /** The forces of a step without duration that begins at @p start. */
+    Inertia
+    inertia_at(const Vector &w, const StepStart &start) const;
 
     /** try_step() as the parameters say: with a line search, without, both. */
     Attempt

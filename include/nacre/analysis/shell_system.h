@@ -4,6 +4,7 @@
 #ifndef nacre_analysis_shell_system_h
 #define nacre_analysis_shell_system_h
 
+#include <nacre/analysis/fading_force.h>
 #include <nacre/base/expression.h>
 #include <nacre/discretization/displacement_conditions.h>
 #include <nacre/forms/assembly.h>
@@ -47,6 +48,29 @@ namespace Nacre
     /** Take the loads at @p time instead. */
     void
     set_force_time(const double time);
+
+    /**
+     * From the time set on act on the shell with forces that keep it in
+     * equilibrium at @p u with the @p inertia, and that fall linearly to zero
+     * within @p duration. Collective.
+     */
+    void
+    hold(const Vector &u, const Inertia &inertia, const double duration);
+
+    /** Whether such forces act after @p time. */
+    bool
+    is_held(const double time) const
+    {
+      return held_.share(time) > 0.;
+    }
+
+    /** These forces (force) at the time set, added to @p forces. */
+    void
+    add_held_forces(const double factor, Vector &forces) const
+    {
+      if (held_share_ > 0.)
+        forces.add(factor * held_share_, held_.force);
+    }
 
     /** The start of a step at @p u with the prescribed rotations set. */
     StepStart
@@ -148,14 +172,12 @@ namespace Nacre
                  Vector            &mode);
 
     /**
-     * The acceleration (length/time^2) that the forces at @p u and the damping
-     * (1/time) at the velocity @p v give; zero where displacements are
-     * prescribed.
+     * The acceleration (length/time^2) that the forces at @p u give in
+     * addition to that of @p inertia; zero where displacements are prescribed.
      */
     Vector
     acceleration(const Vector    &u,
-                 const Vector    &v,
-                 const double     damping,
+                 const Inertia   &inertia,
                  const MassTerms &mass);
 
     /** trace K(u) / trace M (1/time^2). */
@@ -277,7 +299,9 @@ namespace Nacre
     const Assembly       &assembly_;
     const ShellModel     &model_;
     ShellActions          actions_;
-    double                factor_ = 0.;
+    FadingForce           held_;
+    double                held_share_ = 0.;
+    double                factor_     = 0.;
     double                size_;
     double                area_; // of the undeformed surface
 

@@ -31,6 +31,11 @@ namespace Nacre
     double prescribed_work = 0.;
     /** Taken out by mass damping. */
     double dissipation = 0.;
+    /**
+     * Taken out where cuts have grown: by the forces of lips that are being
+     * released, and at the moment of a cut, as membrane strains change there.
+     */
+    double released = 0.;
     /** Largest of all of these, at least what is round-off for sure. */
     double largest = 0.;
     //@}
@@ -42,8 +47,8 @@ namespace Nacre
     double
     gain() const
     {
-      return kinetic + strain + dissipation - initial - external_work -
-             prescribed_work;
+      return kinetic + strain + dissipation + released - initial -
+             external_work - prescribed_work;
     }
 
     /** The same as a part of the largest energy. */

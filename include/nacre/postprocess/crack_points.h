@@ -17,8 +17,8 @@ namespace Nacre
   class CrackPoints
   {
   public:
-    /** @param state must live as long @param points in the reference cell */
-    CrackPoints(const ShellState &state, const Quadrature<dim> &points);
+    /** @param shell must live as long @param points in the reference cell */
+    CrackPoints(const SolvedShell &shell, const Quadrature<dim> &points);
 
     void
     reinit(const CellPart &part);
@@ -52,6 +52,10 @@ namespace Nacre
       return strains_.displacement(q);
     }
 
+    /** SolvedShell::acceleration; 0 in statics (length/time^2). */
+    Tensor<1, spacedim>
+    acceleration(const unsigned int q) const;
+
     /** u,a and u,ab. */
     VectorDerivatives
     derivatives(const unsigned int q) const;
@@ -68,7 +72,7 @@ namespace Nacre
     }
 
   private:
-    const ShellState     &state_;
+    const SolvedShell    &shell_;
     const bool            is_linear_;
     const Quadrature<dim> quadrature_;
     StrainValues          strains_;
@@ -76,6 +80,7 @@ namespace Nacre
     std::vector<std::array<double, 4>> third_;
 
     Vector<double>                   u_;
+    Vector<double>                   acceleration_;
     ArrayView<const Point<spacedim>> nodes_;
   };
 } // namespace Nacre

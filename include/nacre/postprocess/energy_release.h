@@ -28,7 +28,9 @@ namespace Nacre
    * with energy_change() and CrackExtension's q, the force F per area and the
    * force f per length of the lips. The second term is what -d/ds of the
    * potential -int f . u becomes by partial integration; it holds for a
-   * pressure that follows, too.
+   * pressure that follows, too. In dynamics F holds the forces of inertia: what
+   * the kinetic energy changes by is a divergence, without q beyond the
+   * plateau.
    */
   class EnergyRelease
   {
@@ -37,8 +39,8 @@ namespace Nacre
      * Throws on all ranks if between the tip and the plateau's end there is
      * anything but one smooth sheet with a straight crack: other edges, cuts
      * and tips, the crack's other end, creases, other regions, supports or
-     * forces at points, supports or moments at the lips; and in dynamics, of
-     * modes and with a foundation. Collective.
+     * forces at points, supports or moments at the lips; and of modes and with
+     * a foundation. Collective.
      */
     EnergyRelease(const SolvedShell  &shell,
                   const CrackTip     &tip,

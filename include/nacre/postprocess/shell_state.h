@@ -51,7 +51,9 @@ namespace Nacre
     //@{
     const MassTerms                     *mass     = nullptr;
     const TrilinosWrappers::MPI::Vector *velocity = nullptr;
-    EnergyBalance                        balance  = {};
+    /** a + c v with mass damping c, ghosted (length/time^2). */
+    const TrilinosWrappers::MPI::Vector *acceleration = nullptr;
+    EnergyBalance                        balance      = {};
     //@}
     /** Of buckling and vibration; else null. */
     const ModeValues *modes = nullptr;

@@ -10,6 +10,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,12 @@ namespace Nacre
 
     unsigned int maximum_steps = 20;
 
+    /**
+     * In dynamics: how long (time) the forces of new lips take to fall to
+     * zero; 0: at once; none: as long as a Rayleigh wave takes for the step.
+     */
+    std::optional<double> release_time = {};
+
     bool
     is_on() const
     {
@@ -120,6 +127,9 @@ namespace Nacre
     void
     read_step(const Constants &constants, Growth &growth) const;
 
+    void
+    read_release(const Constants &constants, Growth &growth) const;
+
     std::string     tips_text_      = "none";
     GrowthCriterion criterion_      = Growth().criterion;
     std::string     toughness_text_ = "";
@@ -127,6 +137,7 @@ namespace Nacre
     std::string     direction_text_ = "default";
     std::string     step_text_      = "3 cells";
     std::string     length_text_    = "";
+    std::string     release_text_   = "default";
     unsigned int    maximum_steps_  = Growth().maximum_steps;
   };
 } // namespace Nacre

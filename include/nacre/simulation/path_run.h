@@ -119,17 +119,31 @@ namespace Nacre
     void
     refine(const QuantitiesOfInterest &quantities, PathState &state);
 
+    /**
+     * Whether tips may advance, or be in the table of growth, at @p state: in
+     * dynamics not while lips are being released, whose forces G doesn't know.
+     */
+    bool
+    looks_at_tips(const PathState &state) const;
+
     /** The state as growth sees it: the tips, a row in its table. */
     void
     observe_growth(const PathState &state);
 
     /**
      * Let the cuts grow at the @p state for as long as tips advance, each step
-     * with a new equilibrium at the same time. Returns "", or why the last
-     * step has none: @p state is then the one before it.
+     * with a new equilibrium at the same time; in dynamics by one step. Returns
+     * "", or why the last step has none: @p state is then the one before it.
      */
     std::string
     grow(const QuantitiesOfInterest &quantities, PathState &state);
+
+    /**
+     * Lengthen the cuts by a step. In dynamics returns how long the new lips
+     * are held (time), a time step at least if at all.
+     */
+    double
+    advance_tips(PathState &state);
 
     /** A step of that. */
     std::string

@@ -53,13 +53,13 @@ namespace Nacre
 
     /** Fills residual_: inertia is part of the reactions. */
     Energies
-    forces(const PathState     &state,
-           const DiscreteShell &shell,
+    forces(const DiscreteShell &shell,
            const PathAnalysis  &path,
            const ShellSystem   &system);
 
     const Vector      displacement_;
     const Vector      velocity_;
+    const Vector      acceleration_;
     Vector            residual_;
     const SolvedShell shell_;
   };
