@@ -57,11 +57,13 @@ namespace Nacre
   {
     const auto         &values = strains_.values();
     Tensor<1, spacedim> acceleration;
-    // Tips have no functions in dynamics.
     for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
       for (unsigned int c = 0; c < spacedim; ++c)
         acceleration[c] +=
           values.shapes().value(q, a) * acceleration_[values.dof(a, c)];
+    for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+      acceleration += acceleration_[values.tip_dof(k)] *
+                      Tensor<1, spacedim>(values.tip_function(q, k).value);
     return acceleration;
   }
 
