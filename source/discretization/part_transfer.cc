@@ -16,6 +16,7 @@ namespace Nacre
     for (const CellPart &part : discretization.relevant_parts())
       {
         discretization.get_dof_indices(part, dofs);
+        dofs.resize(discretization.node_dofs().size());
         FormerPart former;
         if (part.is_cut())
           former.polygon = part.polygon();
@@ -69,7 +70,7 @@ namespace Nacre
       {
         const FormerPart &former = former_part(discretization, part);
         discretization.get_dof_indices(part, dofs);
-        for (unsigned int i = 0; i < dofs.size(); ++i)
+        for (unsigned int i = 0; i < former.values[k].size(); ++i)
           if (owned.is_element(dofs[i]))
             field(dofs[i]) = former.values[k][i];
       }

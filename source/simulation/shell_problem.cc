@@ -233,11 +233,10 @@ namespace Nacre
                            "' takes finite rotations, which know no 'Cuts/Tips "
                            "= branch functions'; choose 'linear', or tips that "
                            "are 'closed'."));
-    AssertThrow(!problem.growth.is_on() || problem.path.is_linear(),
-                ExcMessage("Growth/Tips: 'Cuts/Tips = branch functions' grow "
-                           "in linear analyses only; choose 'closed' with "
-                           "'Analysis/Type = " +
-                           name_of(problem.path.type) + "'."));
+    AssertThrow(!problem.growth.is_on() || !problem.path.is_dynamic(),
+                ExcMessage("Growth/Tips: in motions 'Cuts/Tips = branch "
+                           "functions' don't grow, since a tip that moves "
+                           "would leave mass behind; choose 'closed'."));
   }
 
   void

@@ -23,9 +23,10 @@ case("finite", ["Cuts/Tips", "'Kinematics = linear'", "'closed'"],
 case("prestress", ["Analysis/Prestress", "'tangent'", "'linear'", "closed"],
      {"Analysis/Type": "buckling", "Analysis/Prestress": "tangent",
       "Quantities/Quantities": ""}, ["--check"])
-case("growing_path", ["Growth/Tips", "'Cuts/Tips = branch functions'"],
-     {"Analysis/Type": "static", "Growth/Tips": "crack end",
-      "Growth/Toughness": "1", "Quantities/Quantities": ""}, ["--check"])
+case("growing_in_motion", ["Growth/Tips", "'Cuts/Tips = branch functions'"],
+     {"Analysis/Type": "dynamic", "Growth/Tips": "crack end",
+      "Growth/Toughness": "1", "Section/Density": "1",
+      "Quantities/Quantities": ""}, ["--check"])
 case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
      {"Section/Type": "laminate", "Quantities/Quantities": "",
       "Section/Laminate/Materials":

@@ -17,7 +17,8 @@ namespace Nacre
    * Carries fields to the same mesh with longer cuts. A part takes the
    * polynomial of the part that it comes from, so that the fields, hence mass
    * and bending energy, are those of before; nodes of small parts then follow
-   * their roots, (C.3) of doc/cutting.md.
+   * their roots, (C.3) of doc/cutting.md. Functions of tips, which move on,
+   * are left out: nodes keep their displacements.
    *
    * The steps: the constructor; the discretisation goes, and another one takes
    * its triangulation; field_on(). Cells stay on their ranks.
@@ -41,7 +42,7 @@ namespace Nacre
     {
       /** None: all of the cell. */
       std::optional<CellPolygon> polygon;
-      /** By field and dof. */
+      /** By field and dof of nodes. */
       std::vector<std::vector<double>> values;
     };
 
