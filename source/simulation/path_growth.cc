@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/discretization/part_transfer.h>
 #include <nacre/simulation/growth_monitor.h>
@@ -56,9 +57,13 @@ namespace Nacre
     growth_.advance(discretization, state.time, false);
     if (!moves)
       return 0.;
-    const double time =
+    const double wanted =
       release_time(problem_, discretization, before, growth_.tips());
-    return time > 0. ? std::max(time, state.next_step) : 0.;
+    if (wanted == 0.)
+      return 0.;
+    const double time = std::max(wanted, state.next_step);
+    log_.progress() << "the lips are released within " << time << std::endl;
+    return time;
   }
 
   std::string
