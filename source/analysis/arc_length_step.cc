@@ -27,6 +27,14 @@ namespace Nacre
   }
 
   void
+  ArcLengthStep::go_to_value(const ControlledQuantity &quantity,
+                             const double              value)
+  {
+    quantity_ = &quantity;
+    value_    = value;
+  }
+
+  void
   ArcLengthStep::go_to_plane(const Vector &normal, const double distance)
   {
     normal_   = normal;
@@ -47,7 +55,8 @@ namespace Nacre
   NewtonSolver::Result
   ArcLengthStep::solve(const NewtonSolver::Parameters &parameters)
   {
-    Assert(direction_ != nullptr || normal_.size() > 0, ExcNotInitialized());
+    Assert(direction_ != nullptr || quantity_ != nullptr || normal_.size() > 0,
+           ExcNotInitialized());
     system_.keep_tangent(false);
     system_.set_time(start_time_);
     auto result =
@@ -84,6 +93,23 @@ namespace Nacre
     distance_ = normal_ * normal_;
   }
 
+  double
+  ArcLengthStep::distance_left(const Vector &u)
+  {
+    if (quantity_ == nullptr)
+      {
+        Vector change(u);
+        change -= start_;
+        return distance_ - normal_ * change;
+      }
+    const auto [found, gradient] = quantity_->evaluate(u);
+    normal_                      = gradient;
+    const double left            = quantity_->change(found, value_);
+    if (is_first_)
+      distance_ = left;
+    return left;
+  }
+
   NewtonSolver::Step
   ArcLengthStep::linearise(const Vector &u, Vector &du)
   {
@@ -92,13 +118,11 @@ namespace Nacre
       return step;
     const ShellSystem::Rate rate     = system_.rate(u, time_, rate_step_);
     const Vector           &velocity = rate.velocity;
-    if (normal_.size() == 0)
+    if (quantity_ == nullptr && normal_.size() == 0)
       set_tangent_plane(velocity);
-    Vector change(u);
-    change -= start_;
-    change += du;
+    const double left     = distance_left(u);
     const double slope    = normal_ * velocity;
-    const double dt       = (distance_ - normal_ * change) / slope;
+    const double dt       = (left - normal_ * du) / slope;
     const double smallest = 1e-12 * normal_.l2_norm() * velocity.l2_norm();
     if (!(std::abs(slope) > smallest) || !std::isfinite(dt))
       {
@@ -119,6 +143,10 @@ namespace Nacre
         step.work           = dt * dt * rate.work;
         step.round_off_work = 0.;
       }
+    else if (quantity_ != nullptr)
+      // In equilibrium, but Q hasn't its value yet.
+      step.work =
+        std::abs(step.work) + std::abs(rate.work) * std::pow(left / slope, 2);
     is_first_ = false;
     time_ += dt;
     system_.set_time(time_);

@@ -12,24 +12,12 @@
 
 namespace Nacre
 {
-  namespace
-  {
-    /** Steps are of t, or of the quantity that is controlled. */
-    double
-    size_of_steps(const PathParameters &parameters)
-    {
-      return parameters.controls_displacement() ?
-               parameters.control_step / parameters.time_step :
-               1.;
-    }
-  } // namespace
-
   EquilibriumCurve::EquilibriumCurve(const PathParameters &parameters,
                                      ShellSystem          &system)
     : parameters_(parameters)
     , system_(system)
-    , step_control_(size_of_steps(parameters) * parameters.minimum_time_step,
-                    size_of_steps(parameters) * parameters.maximum_time_step,
+    , step_control_(parameters.step_of(parameters.minimum_time_step),
+                    parameters.step_of(parameters.maximum_time_step),
                     parameters.newton.max_iterations)
   {}
 
@@ -92,12 +80,24 @@ namespace Nacre
   }
 
   void
+  EquilibriumCurve::follow_control(PathState &state) const
+  {
+    if (control_)
+      state.controlled +=
+        control_->change(state.controlled,
+                         control_->evaluate(state.motion.u).first);
+  }
+
+  void
   EquilibriumCurve::count_controls(PathState &state) const
   {
-    if (!control_ || state.begins_branch)
+    if (!control_)
+      return;
+    follow_control(state);
+    if (state.begins_branch)
       return;
     const auto  &values = parameters_.control_values;
-    const double found  = controlled(state.motion.u);
+    const double found  = state.controlled;
     while (state.n_controls < values.size() &&
            std::abs(values[state.n_controls] - found) <=
              1e-9 * parameters_.control_step + 1e-14 * std::abs(found))
@@ -115,6 +115,7 @@ namespace Nacre
     step_control_.accept(state, state.iterations);
     state.begins_branch = false;
     state.motion.a      = 0.;
+    follow_control(state);
   }
 
   std::string
@@ -131,7 +132,8 @@ namespace Nacre
     const bool may_go_on =
       step_control_.reject(state,
                            is_near ? 4. * state.next_step : state.next_step);
-    if (!may_go_on || (is_near && state.next_step > 100. * first_step()))
+    if (!may_go_on ||
+        (is_near && state.next_step > 100. * parameters_.first_step()))
       return text.str() + ". The last good state is kept. " +
              remedy(attempt.result.kind, parameters_);
     callbacks.tell(text.str() + "; trying " + (is_near ? "twice" : "half") +
@@ -175,7 +177,7 @@ namespace Nacre
     state.motion.a *= (number > 0 ? 0.5 : -0.5) * system_.thickness();
     // Lengths on the branch have another unit.
     state.motion.v     = 0.;
-    state.next_step    = first_step();
+    state.next_step    = parameters_.first_step();
     state.n_good_steps = 0;
   }
 
@@ -233,7 +235,7 @@ namespace Nacre
   void
   EquilibriumCurve::set_plane(const PathState &state, ArcLengthStep &step) const
   {
-    const double share = state.next_step / first_step();
+    const double share = state.next_step / parameters_.first_step();
     if (state.begins_branch)
       {
         Vector mode(state.motion.a);
@@ -242,13 +244,18 @@ namespace Nacre
       }
     else if (control_)
       {
-        const double distance = parameters_.control_values[state.n_controls] -
-                                controlled(state.motion.u);
+        const double distance =
+          parameters_.control_values[state.n_controls] - state.controlled;
+        // The shortest way must be the right one.
+        const double size = control_->period > 0. ?
+                              std::min(state.next_step, control_->period / 4.) :
+                              state.next_step;
         // No rest is left that isn't worth a step.
-        const bool arrives = std::abs(distance) <= 1.001 * state.next_step;
-        step.go_to_plane(*control_,
-                         arrives ? distance :
-                                   std::copysign(state.next_step, distance));
+        const bool arrives = std::abs(distance) <= 1.001 * size;
+        step.go_to_value(*control_,
+                         state.controlled + (arrives ?
+                                               distance :
+                                               std::copysign(size, distance)));
       }
     else
       {

@@ -41,9 +41,7 @@ namespace Nacre
   PathAnalysis::initial_state(const MotionState *start) const
   {
     PathState state;
-    state.next_step = parameters_.controls_displacement() ?
-                        parameters_.control_step :
-                        parameters_.time_step;
+    state.next_step = parameters_.first_step();
     system_.set_time(0.);
     state.load_factor   = system_.load_factor();
     MotionState &motion = state.motion;

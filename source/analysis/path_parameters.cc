@@ -352,10 +352,11 @@ namespace Nacre
       "or several numbers, 'k, -k, ...': each branch is a path with "
       "files of its own, NAME_branchK; 0: the primary path is "
       "followed to its end, too.");
-    add_parameter("Control",
-                  control_text_,
-                  "With displacement control: the name of the quantity that is "
-                  "prescribed in steps, a displacement at a point.");
+    add_parameter(
+      "Control",
+      control_text_,
+      "With displacement control: the name of the quantity that is "
+      "prescribed in steps, a displacement or a rotation at a point.");
     add_parameter(
       "Control values",
       control_values_text_,

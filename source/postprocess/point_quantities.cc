@@ -232,6 +232,70 @@ namespace Nacre
     return Utilities::MPI::sum(value, discretization.communicator());
   }
 
+  Angle
+  evaluate_angle(const Discretization                &discretization,
+                 const TrilinosWrappers::MPI::Vector &displacement,
+                 const PointQuantity                 &quantity)
+  {
+    using Vector3    = Tensor<1, spacedim>;
+    const auto place = discretization.locate(quantity.point, quantity.where);
+    Angle      angle;
+    angle.gradient.reinit(discretization.locally_owned_dofs(),
+                          discretization.communicator());
+    run_on_all_ranks(discretization.communicator(), [&]() {
+      if (!place.is_mine)
+        return;
+      ShellCellValues values(discretization,
+                             Quadrature<dim>(place.unit),
+                             false,
+                             ShellCellValues::Points::given);
+      values.reinit(place.part);
+      std::vector<types::global_dof_index> dofs;
+      discretization.get_dof_indices(place.part, dofs);
+      const auto &shapes = values.shapes();
+      auto        phi    = values.frame(0).a_cov;
+      for (unsigned int alpha = 0; alpha < dim; ++alpha)
+        {
+          for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              phi[alpha][c] += shapes.gradient(0, a)[alpha] *
+                               displacement(dofs[values.dof(a, c)]);
+          for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+            phi[alpha] += displacement(dofs[values.tip_dof(k)]) *
+                          values.tip_function(0, k).first[alpha];
+        }
+      const Vector3 &d  = quantity.direction;
+      const Vector3 &t0 = values.frame(0).t0;
+      const Vector3  s  = cross_product_3d(d, t0);
+      const Vector3  p  = t0 - (d * t0) * d;
+      AssertThrow(s.norm() > 1e-6,
+                  ExcMessage(quantity.where +
+                             ": the normal doesn't turn about itself; choose a "
+                             "direction along the surface."));
+      const Vector3 n = cross_product_3d(phi[0], phi[1]);
+      const double  x = n * p, y = n * s;
+      angle.value = std::atan2(y, x);
+      // d(angle) = w . dn
+      const Vector3                  w    = (x * s - y * p) / (x * x + y * y);
+      const std::array<Vector3, dim> dphi = {
+        {cross_product_3d(phi[1], w), cross_product_3d(w, phi[0])}};
+      for (unsigned int alpha = 0; alpha < dim; ++alpha)
+        {
+          for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              angle.gradient(dofs[values.dof(a, c)]) +=
+                shapes.gradient(0, a)[alpha] * dphi[alpha][c];
+          for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+            angle.gradient(dofs[values.tip_dof(k)]) +=
+              values.tip_function(0, k).first[alpha] * dphi[alpha];
+        }
+    });
+    angle.gradient.compress(VectorOperation::add);
+    angle.value =
+      Utilities::MPI::sum(angle.value, discretization.communicator());
+    return angle;
+  }
+
   double
   evaluate_extreme_stress(const ShellState    &state,
                           const ExtremeStress &quantity)

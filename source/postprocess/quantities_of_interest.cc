@@ -402,6 +402,11 @@ namespace Nacre
           quantity.evaluate = [=](const SolvedShell &shell) {
             return evaluate_point_quantity(shell, *at_point);
           };
+          if (at_point->kind == PointQuantity::Kind::rotation)
+            quantity.angle = [=](const Discretization &discretization,
+                                 const TrilinosWrappers::MPI::Vector &u) {
+              return evaluate_angle(discretization, u, *at_point);
+            };
         }
       else if (phrase.take("displacement"))
         parse_displacement(quantity, phrase, constants);

@@ -48,7 +48,7 @@ namespace Nacre
       archive &s.step &s.time &s.next_step &s.n_good_steps &s.load_factor &s
         .iterations &s.residual &s.n_negative_pivots;
       archive &s.n_points &s.n_bifurcations &s.branch &s.begins_branch &s
-        .n_controls;
+        .n_controls &s.controlled;
       EnergyBalance &b = s.balance;
       archive &b.is_kept &b.kinetic &b.strain &b.initial &b.external_work &b
         .prescribed_work &b.dissipation &b.largest;

@@ -327,7 +327,7 @@ namespace Nacre
     for (unsigned int k = 0; k < values.size(); ++k)
       line << ", " << quantities_.quantities()[k].name << " = " << values[k];
     const unsigned int n_done = state.step - start_step_;
-    const auto         n_left = n_steps_left(state, values);
+    const auto         n_left = n_steps_left(state);
     if (options_.report_seconds && n_done > 0 && n_left)
       line << std::fixed << std::setprecision(0) << ", "
            << timer_.wall_time() / n_done * *n_left << " s left";
@@ -335,8 +335,7 @@ namespace Nacre
   }
 
   std::optional<double>
-  PathMonitor::n_steps_left(const PathState           &state,
-                            const std::vector<double> &values) const
+  PathMonitor::n_steps_left(const PathState &state) const
   {
     if (!path_.follows_curve())
       return grid_.n_steps_left(state.time, state.next_step);
@@ -344,10 +343,7 @@ namespace Nacre
     double       distance = 0., size = state.next_step;
     if (path_.controls_displacement())
       {
-        double value = 0.;
-        for (unsigned int k = 0; k < values.size(); ++k)
-          if (quantities_.quantities()[k].name == path_.control)
-            value = values[k];
+        double value = state.controlled;
         for (unsigned int k = state.n_controls; k < path_.control_values.size();
              value          = path_.control_values[k++])
           distance += std::abs(path_.control_values[k] - value);

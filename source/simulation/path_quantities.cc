@@ -27,7 +27,8 @@ namespace Nacre
 
   void
   check_path_quantities(const PathParameters       &path,
-                        const QuantitiesOfInterest &quantities)
+                        const QuantitiesOfInterest &quantities,
+                        const KinematicsModel       kinematics)
   {
     std::vector<std::string> names;
     for (const auto &quantity : quantities.quantities())
@@ -40,12 +41,18 @@ namespace Nacre
                                                   "quantity",
                                                   path.control,
                                                   names)));
-        AssertThrow(control->goal.load,
+        AssertThrow(control->goal.load || control->angle,
                     ExcMessage("Analysis/Control: the quantity '" +
                                path.control +
-                               "' is not linear in the displacement; choose "
-                               "one like 'displacement z at (x, y, z)', or "
-                               "'Type = arc length'."));
+                               "' is neither a displacement nor a rotation at "
+                               "a point; choose one like 'displacement z at "
+                               "(x, y, z)', or 'Type = arc length'."));
+        AssertThrow(!control->angle || kinematics != KinematicsModel::linear,
+                    ExcMessage("Analysis/Control: rotations are controlled "
+                               "with Discretization/Kinematics = finite or "
+                               "corotational; '" +
+                               path.control +
+                               "' is one, and the kinematics are linear."));
       }
     names.insert(names.end(), {load_factor_name, time_name});
     for (const auto &bound : path.bounds)
@@ -56,11 +63,32 @@ namespace Nacre
                                                 names)));
   }
 
-  const QuantitiesOfInterest::Quantity *
+  ControlledQuantity
   controlled_quantity(const PathParameters       &path,
-                      const QuantitiesOfInterest &quantities)
+                      const QuantitiesOfInterest &quantities,
+                      const ShellSystem          &system,
+                      const Discretization       &discretization)
   {
-    return find_quantity(quantities, path.control);
+    using Vector         = ControlledQuantity::Vector;
+    const auto *quantity = find_quantity(quantities, path.control);
+    Assert(quantity != nullptr, ExcInternalError());
+    ControlledQuantity control;
+    if (quantity->angle)
+      {
+        control.period = 2. * numbers::PI;
+        control.evaluate =
+          [&system, &discretization, angle = quantity->angle](const Vector &u) {
+            const Angle found = angle(discretization, system.with_ghosts(u));
+            return std::make_pair(found.value, found.gradient);
+          };
+        control.evaluate(system.owned_vector());
+      }
+    else
+      control.evaluate =
+        [gradient = quantity->goal.load(discretization)](const Vector &u) {
+          return std::make_pair(gradient * u, gradient);
+        };
+    return control;
   }
 
   std::string

@@ -20,9 +20,12 @@ namespace Nacre
       return forbidden_changes(then, problem);
     });
     PathState &state = data.state;
-    if (has_changed("Analysis/Time step", data.problem, problem))
-      state.next_step = parameters.time_step;
-    state.next_step = std::min(state.next_step, parameters.maximum_time_step);
+    if (has_changed("Analysis/Time step", data.problem, problem) ||
+        has_changed("Analysis/Control step", data.problem, problem))
+      state.next_step = parameters.first_step();
+    state.next_step =
+      std::min(state.next_step,
+               parameters.step_of(parameters.maximum_time_step));
 
     log.progress() << "restart from step " << state.step
                    << ", t = " << state.time << std::endl;

@@ -20,10 +20,14 @@ namespace Nacre
              shell.solver())
     , path(problem.path, system, problem.model.section)
   {
-    check_path_quantities(problem.path, quantities);
+    check_path_quantities(problem.path,
+                          quantities,
+                          problem.model.kinematics.model);
     if (problem.path.controls_displacement())
-      path.curve()->control(controlled_quantity(problem.path, quantities)
-                              ->goal.load(shell.discretization()));
+      path.curve()->control(controlled_quantity(problem.path,
+                                                quantities,
+                                                system,
+                                                shell.discretization()));
   }
 
   namespace

@@ -18,6 +18,7 @@ from runs import check, main, near  # noqa: E402  (found by the line above)
 BENCHMARKS = HERE.parents[1] / "prm/benchmarks"
 ARCH = str(BENCHMARKS / "arc_length_arch.prm")
 HINGED = str(BENCHMARKS / "path_arch_hinged.prm")
+CIRCLE = str(BENCHMARKS / "finite_circle.prm")
 STRIP = str(BENCHMARKS / "arc_length_elastica.prm")
 # Semi-analytical: the largest and the smallest load, of 60.
 LARGEST, SMALLEST = 52.580408 / 60., 46.188430 / 60.
@@ -135,7 +136,38 @@ def control(folder):
                 expect=("Analysis/Control", "'v'", "w"))
     folder.fail(ARCH, "--check", **pushed,
                 Quantities__Quantities="w = energy",
-                expect=("Analysis/Control", "not linear", "arc length"))
+                expect=("Analysis/Control", "neither", "arc length"))
+
+
+@test(1, 2)
+def control_of_a_rotation(folder):
+    """The end of a strip turned once around: the moment is the closed form's,
+    t of doc/finite.md's circle; and a path stopped beyond half a turn."""
+    turned = dict(COARSE, Study__Refinements="0", Study__Degrees="4",
+                  Quantities__Quantities="a = rotation y at (L, b/2, 0)",
+                  Analysis__Type="displacement control", Analysis__Control="a",
+                  Analysis__Control_step="pi/4",
+                  Analysis__Control_values="-2*pi",
+                  Analysis__Checkpoint_steps="1")
+    folder.succeed(CIRCLE, **turned, Analysis__Maximum_steps="5")
+    folder.succeed(CIRCLE, "--restart", **turned)
+    rows = folder.rows("case_path.csv")
+    check(len(rows) == 9, f"not steps of an eighth of a turn: {rows}")
+    for k, row in enumerate(rows[1:], 1):
+        check_near("t of the moment", row["time"], k / 8, 1e-6)
+        # As many as with the moment prescribed: the gradient is exact.
+        check(int(row["iterations"]) <= 9, f"slow: {row}")
+        if k != 4:  # half a turn has two signs
+            angle = -math.remainder(k * math.pi / 4, 2 * math.pi)
+            check(abs(float(row["a"]) - angle) < 1e-9, f"not as asked: {row}")
+    if folder.ranks > 1:
+        return
+    folder.fail(CIRCLE, "--check", **turned,
+                Discretization__Kinematics="linear",
+                expect=("Analysis/Control", "corotational", "'a'"))
+    turned["Quantities__Quantities"] = "a = rotation z at (L, b/2, 0)"
+    folder.fail(CIRCLE, "--check", **turned,
+                expect=("'a'", "along the surface"))
 
 
 @test(1)

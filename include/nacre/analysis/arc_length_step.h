@@ -4,7 +4,7 @@
 #ifndef nacre_analysis_arc_length_step_h
 #define nacre_analysis_arc_length_step_h
 
-#include <nacre/analysis/shell_system.h>
+#include <nacre/analysis/controlled_quantity.h>
 
 namespace Nacre
 {
@@ -18,11 +18,15 @@ namespace Nacre
    * u_0 being the displacement at the start. With n the tangent of the curve
    * there, this is the arc-length method with the normal plane (E. Riks, An
    * incremental approach to the solution of snapping and buckling problems,
-   * Int. J. Solids Structures 15 (1979) 529-551); with n the gradient of a
-   * linear quantity n . u, it is displacement control (J.-L. Batoz, G. Dhatt,
-   * Incremental displacement algorithms for nonlinear problems, Int. J. Numer.
-   * Meth. Engng 14 (1979) 1262-1267). Both right-hand sides share a
-   * factorisation, so that K may be singular in between.
+   * Int. J. Solids Structures 15 (1979) 529-551). Or it ends where a quantity
+   * Q(u) has a value q,
+   *
+   *   K du = -r - r,t dt,   Q,u(u) . du = q - Q(u):
+   *
+   * for a displacement, which is linear, this is displacement control (J.-L.
+   * Batoz, G. Dhatt, Incremental displacement algorithms for nonlinear
+   * problems, Int. J. Numer. Meth. Engng 14 (1979) 1262-1267). Both right-hand
+   * sides share a factorisation, so that K may be singular in between.
    */
   class ArcLengthStep
   {
@@ -47,10 +51,11 @@ namespace Nacre
     void
     go_along_tangent(const Vector &direction, const double length);
 
-    /**
-     * To the plane where @p normal . u has changed by @p distance: a quantity
-     * whose gradient is the normal.
-     */
+    /** To where @p quantity, which must live as long, has the @p value. */
+    void
+    go_to_value(const ControlledQuantity &quantity, const double value);
+
+    /** To the plane where @p normal . u has changed by @p distance. */
     void
     go_to_plane(const Vector &normal, const double distance);
 
@@ -83,7 +88,7 @@ namespace Nacre
       return time_;
     }
 
-    /** dt/ds (time/length^2), s = normal . u of the plane, at the end. */
+    /** dt/ds, s = normal . u of the plane (length^2) or Q, at the end. */
     double
     end_rate() const
     {
@@ -111,6 +116,13 @@ namespace Nacre
     NewtonSolver::Step
     linearise(const Vector &u, Vector &du);
 
+    /**
+     * What normal . du shall be at @p u: the distance that is left. Sets the
+     * normal to Q,u.
+     */
+    double
+    distance_left(const Vector &u);
+
     /** The plane of the tangent, whose velocity is du/dt. */
     void
     set_tangent_plane(const Vector &velocity);
@@ -121,7 +133,10 @@ namespace Nacre
     const double  rate_step_;
     const Vector *direction_ = nullptr;
     double        length_    = 0.;
-    /** The plane; the normal is empty before it is known. */
+    /** With the value that it shall have. */
+    const ControlledQuantity *quantity_ = nullptr;
+    double                    value_    = 0.;
+    /** The plane, or Q,u; the normal is empty before it is known. */
     Vector normal_;
     double distance_ = 0.;
     Vector u_;

@@ -26,13 +26,12 @@ namespace Nacre
     EquilibriumCurve(const PathParameters &parameters, ShellSystem &system);
 
     /**
-     * With Type = displacement control: the @p gradient of the quantity that is
-     * controlled, Q(u) = gradient . u.
+     * With Type = displacement control: the @p quantity that is controlled.
      */
     void
-    control(const Vector &gradient)
+    control(const ControlledQuantity &quantity)
     {
-      control_ = gradient;
+      control_ = quantity;
     }
 
     /**
@@ -69,16 +68,13 @@ namespace Nacre
     bool
     is_beyond_end(const double time) const;
 
+    /** The state's value of the controlled quantity, from its last one. */
+    void
+    follow_control(PathState &state) const;
+
     /** Count the values of the controlled quantity that were reached. */
     void
     count_controls(PathState &state) const;
-
-    /** Q(u) of the quantity that is controlled. */
-    double
-    controlled(const Vector &u) const
-    {
-      return *control_ * u;
-    }
 
     /**
      * A step; its end is @p end.
@@ -219,17 +215,11 @@ namespace Nacre
       return 0.01 * parameters_.time_step;
     }
 
-    /** The size of the first step: of t, or of the controlled quantity. */
-    double
-    first_step() const
-    {
-      return control_ ? parameters_.control_step : parameters_.time_step;
-    }
-
     const PathParameters &parameters_;
     ShellSystem          &system_;
     const StepControl     step_control_;
-    std::optional<Vector> control_;
+
+    std::optional<ControlledQuantity> control_;
   };
 } // namespace Nacre
 

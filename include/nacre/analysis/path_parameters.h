@@ -231,6 +231,20 @@ namespace Nacre
     {
       return {time_step, std::abs(end_time), output_times};
     }
+
+    /** The size of the first step: of t, or of the controlled quantity. */
+    double
+    first_step() const
+    {
+      return controls_displacement() ? control_step : time_step;
+    }
+
+    /** @p dt (time) as a size of steps, where these are of another quantity. */
+    double
+    step_of(const double dt) const
+    {
+      return first_step() / time_step * dt;
+    }
   };
 
   /** The section Analysis of a parameter file. */

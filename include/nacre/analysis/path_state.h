@@ -39,6 +39,8 @@ namespace Nacre
     bool begins_branch = false;
     /** Values of the controlled quantity that have been reached. */
     unsigned int n_controls = 0;
+    /** That quantity: of an angle with all turns since the start. */
+    double controlled = 0.;
     //@}
 
     /** @name The last step */

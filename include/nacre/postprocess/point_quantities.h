@@ -100,6 +100,34 @@ namespace Nacre
   evaluate_point_quantity(const ShellState    &state,
                           const PointQuantity &quantity);
 
+  /**
+   * An angle at a displacement, up to whole turns (rad), and its gradient
+   * (rad/length).
+   */
+  struct Angle
+  {
+    double                        value = 0.;
+    TrilinosWrappers::MPI::Vector gradient;
+  };
+
+  /**
+   * The angle about the direction d by which the normal of a @p quantity of the
+   * kind rotation has turned at a ghosted @p displacement (length), under
+   * kinematics that aren't linear; collective. With the undeformed normal t_0
+   * and the deformed tangents phi_1, phi_2
+   *
+   *   tan(angle) = n . s / n . p,   n = phi_1 x phi_2,
+   *   s = d x t_0,   p = t_0 - (d . t_0) d.
+   *
+   * If the normal has turned about d alone, this is PointResults::rotation . d.
+   * Throws on all ranks if d is normal to the undeformed surface, and as
+   * evaluate_point_quantity().
+   */
+  Angle
+  evaluate_angle(const Discretization                &discretization,
+                 const TrilinosWrappers::MPI::Vector &displacement,
+                 const PointQuantity                 &quantity);
+
   /** Over the nodes of all cells, each cell by itself; collective. */
   double
   evaluate_extreme_stress(const ShellState    &state,

@@ -5,6 +5,7 @@
 #define nacre_postprocess_quantities_of_interest_h
 
 #include <nacre/base/expression.h>
+#include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/shell_state.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -56,6 +57,10 @@ namespace Nacre
       std::optional<Point<3>> point;
       /** What throws before a solve if it can't be taken; may be empty. */
       std::function<void(const Discretization &)> check;
+      /** Of a rotation: evaluate_angle() of a ghosted displacement. */
+      std::function<Angle(const Discretization &,
+                          const TrilinosWrappers::MPI::Vector &)>
+        angle;
       /** Unknown for quantities that can't be a goal. */
       GoalFunctional goal;
     };

@@ -102,8 +102,7 @@ namespace Nacre
 
     /** About how many steps are left, if that is known. */
     std::optional<double>
-    n_steps_left(const PathState           &state,
-                 const std::vector<double> &values) const;
+    n_steps_left(const PathState &state) const;
 
     void
     write_fields(const PathState &state, const SolvedShell &shell);
