@@ -51,12 +51,16 @@ def moments(growth, path):
     check_near("moments at which the energy of edges changes", n_moments, 3, 0)
 
 
-def released(growth, path, _nacre):
-    """The fracture takes the energy."""
+def released(growth, path, nacre):
+    """The fracture takes the energy, on any number of ranks."""
     conserved(path)
     moments(growth, path)
     check(path[-1]["R"] > .1 * path[0]["E"],
           f"released {path[-1]['R']:.4g} of {path[0]['E']:.4g}")
+    for row, other in zip(path, run(nacre, PLATE, {}, 2)[1]):
+        for name in ("T", "U", "R"):
+            check_near(f"{name} on two ranks", other[name], row[name],
+                       1e-9 * row["E"])
 
 
 def at_once(growth, path, _nacre):
@@ -100,14 +104,14 @@ CASES = {
 }
 
 
-def run(nacre, file, parameters):
+def run(nacre, file, parameters, ranks=1):
     """The rows of growth and of the path."""
     settings = {"Study/Write VTU": "false", **parameters}
     arguments = argparse.Namespace(
         nacre=nacre, prm=HERE / file, timeout=120,
         overrides=[f"{name}={value}" for name, value in settings.items()])
     with tempfile.TemporaryDirectory() as folder:
-        run_study.run_nacre(arguments, 1, folder)
+        run_study.run_nacre(arguments, ranks, folder)
         return [read_table(pathlib.Path(folder, f"output/study_{name}.csv"))
                 for name in ("growth", "path")]
 
