@@ -48,11 +48,13 @@ namespace Nacre
         return {};
       if (t >= 1.)
         return {0., 0., 0.};
-      const double d  = -30. * t * t * (1. - t) * (1. - t) / width;
-      const double dd = -60. * t * (1. - t) * (1. - 2. * t) / (width * width);
-      return {1. - t * t * t * (10. - t * (15. - 6. * t)),
-              d / (2. * r),
-              (dd - d / r) / (4. * r * r)};
+      const double tt = t * t, b = t * (1. - t);
+      const double eta =
+        1. -
+        t * tt * tt * (126. - t * (420. - t * (540. - t * (315. - 70. * t))));
+      const double d  = -630. * b * b * b * b / width;
+      const double dd = -2520. * b * b * b * (1. - 2. * t) / (width * width);
+      return {eta, d / (2. * r), (dd - d / r) / (4. * r * r)};
     }
 
     /** r and theta in the tangent plane of the tip. */

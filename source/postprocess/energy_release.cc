@@ -37,7 +37,7 @@ namespace Nacre
     unsigned int
     n_points(const Discretization &discretization)
     {
-      return discretization.degree() + 5;
+      return discretization.degree() + 6;
     }
 
     Quadrature<dim>

@@ -68,8 +68,12 @@ namespace Nacre
    *
    *   x,g q^g = eta(r),  y,g q^g = 0
    *
-   * with the plateau eta = 1 - t^3 (10 - 15 t + 6 t^2), t = (r - inner)/(outer
-   * - inner). A crack in the plane y = 0 moves along itself.
+   * with the plateau eta = 1 - t^5 (126 - 420 t + 540 t^2 - 315 t^3 + 70 t^4),
+   * t = (r - inner)/(outer - inner), which has four continuous derivatives:
+   * curvatures hold two of them, and quadrature and polynomials feel the third
+   * and fourth.
+   *
+   * A crack in the plane y = 0 moves along itself.
    */
   struct CrackExtension
   {
