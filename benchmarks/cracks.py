@@ -254,7 +254,7 @@ def to_middle(n, size, power=3):
 
 
 def cut_plate(nacre, kind, a, height, load, cells=(24, 20, 51), mesh_a=None,
-              size=None, radii=None):
+              size=None, radii=None, more=None):
     """Of a plate of the half width 1 that is cut from the left up to a, through
     cells of a/50 at the tip; cells: before and behind it, and across."""
     before, behind, across = cells
@@ -282,7 +282,7 @@ def cut_plate(nacre, kind, a, height, load, cells=(24, 20, 51), mesh_a=None,
         settings["Boundary conditions/Points"] = (
             f"(1, 0.01, 0): x = 0, y = 0; (1, {height}, 0): x = 0, z = 0; "
             f"(1, -{height}, 0): z = 0; (0, {height}, 0): z = 0")
-    return nacre.run("inclined_cut.prm", None, settings)
+    return nacre.run("inclined_cut.prm", None, {**settings, **(more or {})})
 
 
 def of_cut(radii, names):
