@@ -21,6 +21,8 @@ namespace Nacre
     constexpr unsigned int n_edge_pieces = 8;
     /** A line may be so far off the surface, of its length. */
     constexpr double off_surface = 0.5;
+    /** Of a point: three components by face, and from how many cells. */
+    constexpr unsigned int n_sums = 3 * n_faces + 1;
 
     /**
      * Where the piece from @p a to @p b of an edge or a cut crosses a line
@@ -212,9 +214,15 @@ namespace Nacre
               const auto         along =
                 line.direction - (line.direction * r.normal) * r.normal;
               const auto m = cross_product_3d(r.normal, along) / along.norm();
-              for (unsigned int k = 0; k < n_faces; ++k)
-                sums[p * (n_faces + 1) + k] += m * (r.stress[k] * m);
-              sums[p * (n_faces + 1) + n_faces] += 1.;
+              const auto c = along / along.norm();
+              double    *s = &sums[p * n_sums];
+              for (const auto &S : r.stress)
+                {
+                  *s++ += m * (S * m);
+                  *s++ += m * (S * c);
+                  *s++ += c * (S * c);
+                }
+              *s += 1.;
             }
         }
     }
@@ -256,41 +264,47 @@ namespace Nacre
     return ends;
   }
 
-  std::vector<std::array<double, n_faces>>
-  mean_stress_across(const ShellState               &state,
-                     const std::vector<SurfaceLine> &lines)
+  std::vector<std::array<LineStress, n_faces>>
+  mean_stresses(const ShellState &state, const std::vector<SurfaceLine> &lines)
   {
     const MPI_Comm communicator = state.discretization.communicator();
     LinePoints     points(state, lines);
     run_on_all_ranks(communicator, [&]() { points.find(); });
     std::vector<double> nearest(points.distances.size());
     Utilities::MPI::min(points.distances, communicator, nearest);
-    std::vector<double> mine(nearest.size() * (n_faces + 1), 0.);
+    std::vector<double> mine(nearest.size() * n_sums, 0.);
     run_on_all_ranks(communicator, [&]() { points.add(nearest, mine); });
     std::vector<double> sums(mine.size());
     Utilities::MPI::sum(mine, communicator, sums);
 
-    const QGauss<1>                          rule(n_line_points);
-    std::vector<std::array<double, n_faces>> means;
+    const QGauss<1>                              rule(n_line_points);
+    std::vector<std::array<LineStress, n_faces>> means(lines.size());
     for (unsigned int l = 0; l < lines.size(); ++l)
       {
-        std::array<double, n_faces> mean{};
-        double                      length = 0.;
+        // What share of the line is on the surface: dr/l = 2 t dt
+        std::array<double, n_line_points> weights{};
+        double                            share = 0.;
         for (unsigned int i = 0; i < n_line_points; ++i)
           {
             const unsigned int p = l * n_line_points + i;
-            const double      *s = &sums[p * (n_faces + 1)];
-            if (s[n_faces] == 0. || nearest[p] > off_surface * lines[l].length)
-              continue;
-            // dr/l = 2 t dt
-            const double part = 2. * rule.point(i)[0] * rule.weight(i);
-            length += part;
-            for (unsigned int k = 0; k < n_faces; ++k)
-              mean[k] += part * s[k] / s[n_faces];
+            if (sums[p * n_sums + n_sums - 1] > 0. &&
+                nearest[p] <= off_surface * lines[l].length)
+              weights[i] = 2. * rule.point(i)[0] * rule.weight(i);
+            share += weights[i];
           }
-        for (double &value : mean)
-          value /= length > 0. ? length : 1.;
-        means.push_back(mean);
+        for (unsigned int i = 0; i < n_line_points; ++i)
+          {
+            const double *s = &sums[(l * n_line_points + i) * n_sums];
+            if (weights[i] == 0.)
+              continue;
+            const double part = weights[i] / (share * s[n_sums - 1]);
+            for (LineStress &mean : means[l])
+              {
+                mean.across += part * *s++;
+                mean.shear += part * *s++;
+                mean.along += part * *s++;
+              }
+          }
       }
     return means;
   }

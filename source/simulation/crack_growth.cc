@@ -336,8 +336,9 @@ namespace Nacre
   CrackGrowth::start(const Discretization &discretization,
                      const CrackStart     &place)
   {
-    auto          &curves = problem_.model.cuts.curves;
-    const CutStart cut    = make_cut(discretization, place, curves);
+    Cuts          &cuts   = problem_.model.cuts;
+    auto          &curves = cuts.curves;
+    const CutStart cut    = make_cut(discretization, place, cuts);
     ++n_started_;
     for (const bool at_end : {false, true})
       if (at_end ? cut.has_end : cut.has_begin)
@@ -369,6 +370,34 @@ namespace Nacre
     --n_steps_;
   }
 
+  namespace
+  {
+    /** Throws for shells that no criterion of strength knows. */
+    void
+    check_strength(const ShellProblem &problem)
+    {
+      const ShellModel &model = problem.model;
+      AssertThrow(!problem.growth.is_by_strength() ||
+                    model.section.n_layers() == 0,
+                  ExcMessage("Growth/Criterion: 'strength' is that of a "
+                             "homogeneous section, and this one has layers; "
+                             "choose 'energy release rate' or 'prescribed'."));
+      const bool starts = problem.growth.starting_cracks > 0;
+      AssertThrow(!starts || problem.assembly == AssemblyMethod::fast,
+                  ExcMessage("Growth/Starting cracks: 'Discretization/Assembly "
+                             "= reference' knows no cells that cuts divide; "
+                             "choose 'fast'."));
+      AssertThrow(!starts || model.mapping_degree == 0 ||
+                    model.mapping_degree == model.element.degree ||
+                    model.element.type != ElementType::lagrange,
+                  ExcMessage("Growth/Starting cracks: with cuts the geometry "
+                             "is isoparametric; found 'Discretization/Mapping "
+                             "degree = " +
+                             std::to_string(model.mapping_degree) +
+                             "', choose 0."));
+    }
+  } // namespace
+
   void
   check_growth(const ShellProblem &problem)
   {
@@ -396,15 +425,6 @@ namespace Nacre
                            "of 'Criterion = energy release rate' or "
                            "'strength'; choose 'straight' or a vector 'dx, "
                            "dy, dz'."));
-    AssertThrow(!problem.growth.is_by_strength() ||
-                  problem.model.section.n_layers() == 0,
-                ExcMessage("Growth/Criterion: 'strength' is that of a "
-                           "homogeneous section, and this one has layers; "
-                           "choose 'energy release rate' or 'prescribed'."));
-    AssertThrow(problem.growth.starting_cracks == 0 ||
-                  problem.assembly == AssemblyMethod::fast,
-                ExcMessage("Growth/Starting cracks: 'Discretization/Assembly = "
-                           "reference' knows no cells that cuts divide; choose "
-                           "'fast'."));
+    check_strength(problem);
   }
 } // namespace Nacre

@@ -241,10 +241,82 @@ namespace Nacre
           places[i].ends = {{ends[2 * i], ends[2 * i + 1]}};
           lines.push_back(averaging_line(places[i]));
         }
-      const auto means = mean_stress_across(state, lines);
+      const auto means = mean_stresses(state, lines);
       for (unsigned int i = 0; i < places.size(); ++i)
-        places[i].drive =
-          *std::max_element(means[i].begin(), means[i].end()) / growth.strength;
+        {
+          places[i].drive = 0.;
+          for (const LineStress &s : means[i])
+            if (s.across / growth.strength > places[i].drive)
+              {
+                places[i].drive = s.across / growth.strength;
+                // To the principal direction, unless all are
+                const double difference = s.across - s.along;
+                places[i].turn =
+                  std::abs(difference) + std::abs(s.shear) < 1e-3 * s.across ?
+                    0. :
+                    0.5 * std::atan2(-2. * s.shear, difference);
+              }
+        }
+    }
+
+    /** Replace places by candidates where these are pulled more. Collective. */
+    void
+    take_better(const ShellState        &state,
+                const Growth            &growth,
+                std::vector<CrackStart>  candidates,
+                std::vector<CrackStart> &places)
+    {
+      evaluate_places(state, growth, candidates);
+      for (unsigned int i = 0; i < places.size(); ++i)
+        if (candidates[i].drive > (1. + equal_stress) * places[i].drive)
+          places[i] = candidates[i];
+    }
+
+    /**
+     * Move places across their cracks to where the mean tension is largest,
+     * and turn them perpendicular to it. Collective.
+     */
+    void
+    improve_places(const ShellState        &state,
+                   const Growth            &growth,
+                   std::vector<CrackStart> &places)
+    {
+      std::vector<SurfaceLine> lines;
+      for (const CrackStart &place : places)
+        for (const double sign : {-1., 1.})
+          lines.push_back(
+            {place.position,
+             sign * cross_product_3d(place.normal, place.direction),
+             place.normal,
+             0.5 * place.distance});
+      const auto ends = find_line_ends(state.discretization, lines);
+      const std::vector<CrackStart> from = places;
+      const auto moved = [&](const unsigned int i, const double share) {
+        const unsigned int end   = 2 * i + (share > 0. ? 1 : 0);
+        CrackStart         place = from[i];
+        place.position =
+          state.discretization
+            .nearest(place.position + std::abs(share) * ends[end].distance *
+                                        lines[end].direction)
+            .position;
+        return place;
+      };
+      for (const double share :
+           {-0.75, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 0.75})
+        {
+          std::vector<CrackStart> candidates;
+          for (unsigned int i = 0; i < places.size(); ++i)
+            candidates.push_back(moved(i, share));
+          take_better(state, growth, candidates, places);
+        }
+      std::vector<CrackStart> turned = places;
+      for (CrackStart &place : turned)
+        {
+          const auto m = cross_product_3d(place.normal, place.direction);
+          place.direction =
+            std::cos(place.turn) * place.direction + std::sin(place.turn) * m;
+        }
+      take_better(state, growth, turned, places);
     }
 
     /** Whether one of @p others lies within @p distance(other) of a place. */
@@ -315,7 +387,7 @@ namespace Nacre
     const auto ends = find_line_ends(state.discretization, lines, cut);
     for (unsigned int l = 0; l < lines.size(); ++l)
       lines[l].length = ends[l].distance;
-    const auto means = mean_stress_across(state, lines);
+    const auto means = mean_stresses(state, lines);
 
     AveragedHoopStress best{angle.value_or(0.)};
     // Of equal stresses that which turns the crack the least is taken.
@@ -323,7 +395,7 @@ namespace Nacre
       for (unsigned int face = 0; face < n_faces; ++face)
         {
           const int    k     = i % 2 == 0 ? i / 2 : -(i + 1) / 2;
-          const double value = means[k + n][face];
+          const double value = means[k + n][face].across;
           if (value <= (1. + 1e-9) * best.value)
             continue;
           best.value = value;
@@ -333,8 +405,8 @@ namespace Nacre
           if (std::abs(k) < n)
             {
               // The top of the parabola through three lines
-              const double before = means[k + n - 1][face],
-                           after  = means[k + n + 1][face];
+              const double before = means[k + n - 1][face].across,
+                           after  = means[k + n + 1][face].across;
               const double bend   = before - 2. * value + after;
               if (bend < 0. && before <= value && after <= value)
                 {
@@ -386,16 +458,18 @@ namespace Nacre
       if (chosen.size() < n_most && place.drive > 0. &&
           place.drive >= share * seen.front().drive &&
           !has_neighbor(place, chosen, [](const CrackStart &other) {
-            return 2. * (other.distance + other.step);
+            return 2. * other.distance + other.step;
           }))
         chosen.push_back(place);
+    improve_places(state, growth, chosen);
+    sort_places(chosen, &CrackStart::drive, extent);
     return chosen;
   }
 
   CutStart
-  make_cut(const Discretization        &discretization,
-           const CrackStart            &place,
-           const std::vector<CutCurve> &others)
+  make_cut(const Discretization &discretization,
+           const CrackStart     &place,
+           const Cuts           &cuts)
   {
     std::array<double, 2> length{{place.step, place.step}};
     for (const unsigned int side : {0, 1})
@@ -419,9 +493,11 @@ namespace Nacre
     unsigned int number     = 0;
     do
       start.curve.name = "started " + std::to_string(++number);
-    while (std::any_of(others.begin(), others.end(), [&](const auto &other) {
-      return other.name == start.curve.name;
-    }));
+    while (std::any_of(cuts.curves.begin(),
+                       cuts.curves.end(),
+                       [&](const CutCurve &other) {
+                         return other.name == start.curve.name;
+                       }));
     return start;
   }
 } // namespace Nacre

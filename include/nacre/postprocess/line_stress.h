@@ -53,17 +53,25 @@ namespace Nacre
                  const std::optional<unsigned int> ignored = {});
 
   /**
-   * The mean stress across each line, by Face,
-   *
-   *   1/l int_0^l m . S m dr,   m = t0 x direction            (force/length^2),
-   *
-   * which may have a singularity r^-1/2 at the line's origin. Of points on
-   * edges between cells the mean of the cells' values is taken; points off the
-   * surface are left out. Collective.
+   * The mean of the stress over a line, in the axes m = t0 x direction and c,
+   * the direction: m . S m, m . S c, c . S c (force/length^2).
    */
-  std::vector<std::array<double, n_faces>>
-  mean_stress_across(const ShellState               &state,
-                     const std::vector<SurfaceLine> &lines);
+  struct LineStress
+  {
+    double across = 0., shear = 0., along = 0.;
+  };
+
+  /**
+   * The mean stresses of lines, by Face,
+   *
+   *   1/l int_0^l m . S m dr                                 (force/length^2),
+   *
+   * and the like, which may have a singularity r^-1/2 at the line's origin. Of
+   * points on edges between cells the mean of the cells' values is taken;
+   * points off the surface are left out. Collective.
+   */
+  std::vector<std::array<LineStress, n_faces>>
+  mean_stresses(const ShellState &state, const std::vector<SurfaceLine> &lines);
 } // namespace Nacre
 
 #endif

@@ -67,6 +67,8 @@ namespace Nacre
     std::array<LineEnd, 2> ends = {};
     /** The averaged stress over the strength (1). */
     double drive = 0.;
+    /** By which the mean tension would turn the crack, about normal (rad). */
+    double turn = 0.;
   };
 
   /**
@@ -74,9 +76,10 @@ namespace Nacre
    * stress in the principal direction of a point, at the faces and in the
    * middle of the shell, averaged over a line of length d perpendicular to
    * that. The point is the line's middle, but the line doesn't leave the
-   * surface and crosses no cut: it begins at an edge that is near. Places
-   * within 2 d of a tip are left out, and of places within 2 (d + step) of each
-   * other all but the first. Collective.
+   * surface and crosses no cut: it begins at an edge that is near. The largest
+   * are improved by moves across the crack and by turns to the mean stress.
+   * Places within 2 d of a tip are left out, and of places within 2 d + step of
+   * each other all but the first. Collective.
    * @param n_most how many places at most; all are within Growth::tolerance
    */
   std::vector<CrackStart>
@@ -97,11 +100,12 @@ namespace Nacre
    * if that lies within d. It doesn't end less than a quarter of a step from an
    * edge or a cut, but there. It is named "started N" after the others.
    * Collective.
+   * @param cuts those of @p discretization
    */
   CutStart
-  make_cut(const Discretization        &discretization,
-           const CrackStart            &place,
-           const std::vector<CutCurve> &others);
+  make_cut(const Discretization &discretization,
+           const CrackStart     &place,
+           const Cuts           &cuts);
 } // namespace Nacre
 
 #endif
