@@ -172,6 +172,8 @@ namespace Nacre
       double longest_edge = 0.;
       /** Whether the cut ends inside the cell or along an edge of it. */
       bool ends_inside = false;
+      /** The vertex behind the tip, where the cut runs along an edge. */
+      std::vector<Point<3>> behind = {};
     };
 
     /** @param begin of the cut's last line */
@@ -220,6 +222,9 @@ namespace Nacre
               if (is_vertex ||
                   !(is_along(tip.direction) || is_along(tip.position - begin)))
                 result.ends_inside = false;
+              else
+                result.behind.push_back(
+                  nodes[end(along * tip.direction > 0. ? 0 : 1)]);
             }
         }
       return result;
@@ -339,11 +344,15 @@ namespace Nacre
                  const std::string    &where)
   {
     const MPI_Comm communicator = discretization.communicator();
-    const Point<3> begin        = begin_of_last_line(discretization, tip);
+    Point<3>       begin        = begin_of_last_line(discretization, tip);
     const TipCell  mine         = tip_cell(discretization, tip, begin);
     const double   size = Utilities::MPI::max(mine.longest_edge, communicator);
     const bool     ends_inside =
       Utilities::MPI::max(mine.ends_inside ? 1 : 0, communicator) == 1;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(communicator, mine.behind))
+      if (!of_rank.empty())
+        begin = of_rank.front();
     const auto place = discretization.nearest(
       ends_inside && !discretization.has_tip_functions() ? begin :
                                                            tip.position);

@@ -233,6 +233,8 @@ namespace Nacre
                  const std::vector<SurfaceLine>   &lines,
                  const std::optional<unsigned int> ignored)
   {
+    if (lines.empty())
+      return {};
     // Of edges, then of cuts.
     std::vector<double> nearest(2 * lines.size(),
                                 std::numeric_limits<double>::infinity());
@@ -267,6 +269,8 @@ namespace Nacre
   std::vector<std::array<LineStress, n_faces>>
   mean_stresses(const ShellState &state, const std::vector<SurfaceLine> &lines)
   {
+    if (lines.empty())
+      return {};
     const MPI_Comm communicator = state.discretization.communicator();
     LinePoints     points(state, lines);
     run_on_all_ranks(communicator, [&]() { points.find(); });

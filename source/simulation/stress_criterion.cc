@@ -458,7 +458,7 @@ namespace Nacre
       if (chosen.size() < n_most && place.drive > 0. &&
           place.drive >= share * seen.front().drive &&
           !has_neighbor(place, chosen, [](const CrackStart &other) {
-            return 2. * other.distance + other.step;
+            return other.distance + other.step;
           }))
         chosen.push_back(place);
     improve_places(state, growth, chosen);

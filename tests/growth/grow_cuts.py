@@ -172,8 +172,8 @@ BENT = {**UNIT, "Cuts/Cuts": "", "Cuts/Remove": "", "Loads/Edge forces": "",
         "Section/Thickness": "H*(1 + 0.2*y^2)", "Mid-surface/Subdivisions":
         "15", "Growth/Step": "0.4", "Growth/Starting cracks": "1",
         "Growth/Averaging distance": "0.15", "Growth/Maximum steps": "2"}
-PULLED = {**UNIT, "Mid-surface/Subdivisions": "11", "Growth/Averaging distance":
-          "0.2", "Growth/Maximum steps": "2", "Analysis/Type": "static",
+PULLED = {**UNIT, "Mid-surface/Subdivisions": "11",
+          "Growth/Maximum steps": "2", "Analysis/Type": "static",
           "Analysis/Time step": "0.5", "Loads/Edge forces": "",
           "Boundary conditions/Points": "(-1, -1, 0): x = 0",
           "Boundary conditions/Edges": "v=0: y = 0, z = 0; v=1: y = 0.15*t, "

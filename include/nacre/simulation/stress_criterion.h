@@ -78,7 +78,7 @@ namespace Nacre
    * that. The point is the line's middle, but the line doesn't leave the
    * surface and crosses no cut: it begins at an edge that is near. The largest
    * are improved by moves across the crack and by turns to the mean stress.
-   * Places within 2 d of a tip are left out, and of places within 2 d + step of
+   * Places within 2 d of a tip are left out, and of places within d + step of
    * each other all but the first. Collective.
    * @param n_most how many places at most; all are within Growth::tolerance
    */
