@@ -18,36 +18,6 @@ namespace Nacre
 {
   namespace
   {
-    /** Point and derivatives of a mid-surface given by nodes. */
-    struct LocalSurface
-    {
-      const FiniteElement<dim, spacedim> &fe;
-      const std::vector<Point<spacedim>> &nodes;
-
-      Point<spacedim>
-      position(const Point<dim> &unit) const
-      {
-        Point<spacedim> x;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          x += fe.shape_value(a, unit) * nodes[a];
-        return x;
-      }
-
-      std::array<Tensor<1, spacedim>, dim>
-      tangents(const Point<dim> &unit) const
-      {
-        std::array<Tensor<1, spacedim>, dim> tangents;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          {
-            const auto gradient = fe.shape_grad(a, unit);
-            for (unsigned int alpha = 0; alpha < dim; ++alpha)
-              tangents[alpha] +=
-                gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
-          }
-        return tangents;
-      }
-    };
-
     /** The nearest point on one of this rank's cells, or on a part. */
     struct NearCell
     {
@@ -71,8 +41,8 @@ namespace Nacre
                          [&](const auto &x, const auto &y) {
                            return x.distance(point) < y.distance(point);
                          });
-      const LocalSurface surface{fe, nodes};
-      NearCell           result;
+      const NodeSurface surface{fe, nodes};
+      NearCell          result;
       result.part = part;
       result.unit =
         project_to_cell(surface,
@@ -215,7 +185,7 @@ namespace Nacre
               near.position,
               near.distance,
               near.size,
-              LocalSurface{mesh.scalar_fe(), nodes}.position(
+              NodeSurface{mesh.scalar_fe(), nodes}.position(
                 near.unit + 0.05 * (middle - near.unit)),
               weights_at(mesh, near.part, near.unit)};
     }

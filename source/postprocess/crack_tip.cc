@@ -142,16 +142,45 @@ namespace Nacre
       return nearest;
     }
 
+    /** The other end of the cut's last line, which ends at the tip. */
+    Point<3>
+    begin_of_last_line(const Discretization &discretization,
+                       const CutTrace::Tip  &tip)
+    {
+      std::vector<Point<3>> mine;
+      for (const auto &line : discretization.cut_lines())
+        {
+          if (line.cut != tip.cut)
+            continue;
+          const auto  &a = line.points.front(), &b = line.points.back();
+          const double near = 1e-6 * a.distance(b);
+          if (b.distance(tip.position) <= near)
+            mine.push_back(a);
+          else if (a.distance(tip.position) <= near)
+            mine.push_back(b);
+        }
+      for (const auto &of_rank :
+           Utilities::MPI::all_gather(discretization.communicator(), mine))
+        if (!of_rank.empty())
+          return of_rank.front();
+      return tip.position;
+    }
+
     /** What the cell of the tip of a cut tells; of one rank. */
     struct TipCell
     {
       double longest_edge = 0.;
       /** Whether the cut ends inside the cell or along an edge of it. */
       bool ends_inside = false;
+      /** The vertex behind the tip, where the cut runs along an edge. */
+      std::vector<Point<3>> behind = {};
     };
 
+    /** @param begin of the cut's last line */
     TipCell
-    tip_cell(const Discretization &discretization, const CutTrace::Tip &tip)
+    tip_cell(const Discretization &discretization,
+             const CutTrace::Tip  &tip,
+             const Point<3>       &begin)
     {
       TipCell result;
       for (const auto &cell :
@@ -184,36 +213,21 @@ namespace Nacre
                 d[0] * values.tangent(0, 0) + d[1] * values.tangent(0, 1);
               const bool is_vertex =
                 std::min(y * d, d * d - y * d) < 1e-10 * (d * d);
-              const double cosine = along * tip.direction / along.norm();
-              if (is_vertex || std::abs(cosine) < 1. - 1e-6)
+              // A cut that has been moved into a vertex runs along the edge in
+              // the mesh, and beside it by its direction.
+              const auto is_along = [&](const Tensor<1, 3> &line) {
+                return std::abs(along * line) >=
+                       (1. - 1e-6) * along.norm() * line.norm();
+              };
+              if (is_vertex ||
+                  !(is_along(tip.direction) || is_along(tip.position - begin)))
                 result.ends_inside = false;
+              else
+                result.behind.push_back(
+                  nodes[end(along * tip.direction > 0. ? 0 : 1)]);
             }
         }
       return result;
-    }
-
-    /** The other end of the cut's last line, which ends at the tip. */
-    Point<3>
-    begin_of_last_line(const Discretization &discretization,
-                       const CutTrace::Tip  &tip)
-    {
-      std::vector<Point<3>> mine;
-      for (const auto &line : discretization.cut_lines())
-        {
-          if (line.cut != tip.cut)
-            continue;
-          const auto  &a = line.points.front(), &b = line.points.back();
-          const double near = 1e-6 * a.distance(b);
-          if (b.distance(tip.position) <= near)
-            mine.push_back(a);
-          else if (a.distance(tip.position) <= near)
-            mine.push_back(b);
-        }
-      for (const auto &of_rank :
-           Utilities::MPI::all_gather(discretization.communicator(), mine))
-        if (!of_rank.empty())
-          return of_rank.front();
-      return tip.position;
     }
 
     /** The normal at a place, the same on all ranks. */
@@ -315,9 +329,9 @@ namespace Nacre
     const double   distance     = Utilities::MPI::min(
       distance_of_other_cuts(discretization, cut, found->position),
       communicator);
-    const double size =
-      Utilities::MPI::max(tip_cell(discretization, *found).longest_edge,
-                          communicator);
+    const double size = Utilities::MPI::max(
+      tip_cell(discretization, *found, found->position).longest_edge,
+      communicator);
     AssertThrow(distance > 1e-3 * size,
                 ExcMessage(where + ": the " + end + " of the cut " + name +
                            " is no tip; it lies on another cut."));
@@ -330,12 +344,16 @@ namespace Nacre
                  const std::string    &where)
   {
     const MPI_Comm communicator = discretization.communicator();
-    const TipCell  mine         = tip_cell(discretization, tip);
+    Point<3>       begin        = begin_of_last_line(discretization, tip);
+    const TipCell  mine         = tip_cell(discretization, tip, begin);
     const double   size = Utilities::MPI::max(mine.longest_edge, communicator);
     const bool     ends_inside =
       Utilities::MPI::max(mine.ends_inside ? 1 : 0, communicator) == 1;
-    const Point<3> begin = begin_of_last_line(discretization, tip);
-    const auto     place = discretization.nearest(
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(communicator, mine.behind))
+      if (!of_rank.empty())
+        begin = of_rank.front();
+    const auto place = discretization.nearest(
       ends_inside && !discretization.has_tip_functions() ? begin :
                                                            tip.position);
     const auto normal = normal_at(discretization, place);

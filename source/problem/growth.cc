@@ -16,6 +16,9 @@ namespace Nacre
     const std::string step_parameter      = "Growth/Step";
     const std::string length_parameter    = "Growth/Length";
     const std::string release_parameter   = "Growth/Release time";
+    const std::string strength_parameter  = "Growth/Strength";
+    const std::string distance_parameter  = "Growth/Averaging distance";
+    const std::string starting_parameter  = "Growth/Starting cracks";
 
     double
     positive_number(const std::string &text,
@@ -39,6 +42,26 @@ namespace Nacre
       text = Text::trim(text.substr(0, text.size() - word.size()));
       return true;
     }
+
+    CellLength
+    read_cell_length(const std::string &original,
+                     const std::string &where,
+                     const Constants   &constants)
+    {
+      std::string text     = Text::trim(original);
+      const bool  in_cells = take_last_word(text, "cells");
+      return {positive_number(text, where, constants), in_cells};
+    }
+
+    /** What a criterion says of a parameter of its own or of another one. */
+    struct CriterionUse
+    {
+      std::string parameter;
+      bool        is_given;
+      bool        is_used;
+      /** What to give; empty: it may be left out. */
+      std::string advice;
+    };
 
     Growth::Tip
     read_tip(const std::string &text, const Cuts &cuts)
@@ -70,6 +93,7 @@ namespace Nacre
   {
     static const Selection<GrowthCriterion> table = {
       {GrowthCriterion::energy_release_rate, "energy release rate"},
+      {GrowthCriterion::strength, "strength"},
       {GrowthCriterion::prescribed, "prescribed"}};
     return table;
   }
@@ -93,28 +117,50 @@ namespace Nacre
                   "energy release rate: a tip advances when its G reaches the "
                   "toughness times the thickness; in a linear analysis the "
                   "loads take the factor at which the first one does. "
+                  "strength: the same when the tension ahead, averaged over "
+                  "'Averaging distance', at the faces or in the middle of the "
+                  "shell, reaches 'Strength'. "
                   "prescribed: along a path as 'Length' says, in a linear "
                   "analysis by a step in each solve.");
     add_parameter("Toughness",
                   toughness_text_,
                   "G_c, energy per area of new crack, for the criterion energy "
                   "release rate. Units: force/length.");
+    add_parameter("Strength",
+                  strength_text_,
+                  "The stress at which the material parts, for the criterion "
+                  "strength. Units: force/length^2.");
+    add_parameter("Averaging distance",
+                  distance_text_,
+                  "Over which the criterion strength takes the mean of the "
+                  "stress: a length, or 'N cells', in edges of the cells "
+                  "there. A long crack grows at the energy release rate G_c "
+                  "if it is 2 E G_c/(pi Strength^2). Units: length.");
+    add_parameter("Starting cracks",
+                  starting_,
+                  "How many cracks may start, at most, where the criterion "
+                  "strength is met away from tips: perpendicular to the "
+                  "largest tension, from an edge inwards or by a step to "
+                  "both sides. Units: none.",
+                  prm,
+                  Patterns::Integer(0, 1000));
     add_parameter("Tolerance",
                   tolerance_,
-                  "Tips whose G is below the largest by no more than this part "
-                  "of it advance together with that tip: a step is finite, and "
-                  "meshes aren't symmetric. Units: none.",
+                  "Tips whose G, or stress, is below the largest by no more "
+                  "than this part of it advance together with that tip: a "
+                  "step is finite, and meshes aren't symmetric. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Direction",
                   direction_text_,
                   "hoop stress: perpendicular to the largest tension around "
-                  "the tip, over the faces and the middle of the shell, in "
-                  "linear kinematics; straight: as the cut ends; or a vector "
+                  "the tip, over the faces and the middle of the shell, with "
+                  "the criterion energy release rate in linear kinematics "
+                  "only; straight: as the cut ends; or a vector "
                   "'dx, dy, dz', expressions of x, y, z and t, of which the "
                   "part along the surface counts. default: hoop stress for the "
-                  "criterion energy release rate in linear kinematics, else "
-                  "straight. Units of the vector: none.");
+                  "criteria strength and, in linear kinematics, energy "
+                  "release rate, else straight. Units of the vector: none.");
     add_parameter("Step",
                   step_text_,
                   "How far a tip advances at once: 'N cells', in edges of the "
@@ -148,22 +194,31 @@ namespace Nacre
                          const bool       has_intensities) const
   {
     Growth growth;
+    growth.starting_cracks = starting_;
     read_tips(cuts, growth);
     if (!growth.is_on())
       {
-        AssertThrow(Text::trim(toughness_text_ + length_text_).empty(),
-                    ExcMessage(tips_parameter +
-                               ": none, but 'Toughness' or 'Length' is given; "
-                               "name the tips that grow, 'CUT end', or leave "
-                               "these out."));
+        for (const auto &[parameter, text] :
+             {std::make_pair("Toughness", toughness_text_),
+              std::make_pair("Length", length_text_),
+              std::make_pair("Strength", strength_text_),
+              std::make_pair("Averaging distance", distance_text_)})
+          AssertThrow(Text::trim(text).empty(),
+                      ExcMessage(tips_parameter + ": none, but '" + parameter +
+                                 "' is given; name the tips that grow, 'CUT "
+                                 "end', or leave it out."));
         return growth;
       }
     growth.criterion     = criterion_;
     growth.tolerance     = tolerance_;
     growth.maximum_steps = maximum_steps_;
-    read_criterion(constants, is_path, growth);
+    check_uses(is_path);
+    read_criterion(constants, growth);
     read_direction(constants, has_intensities, growth);
-    read_step(constants, growth);
+    growth.step = read_cell_length(step_text_, step_parameter, constants);
+    AssertThrow(!growth.step.is_in_cells || growth.step.value >= 1.,
+                ExcMessage(step_parameter + ": found '" + step_text_ +
+                           "'; a tip advances by a cell at least, '1 cells'."));
     read_release(constants, growth);
     return growth;
   }
@@ -192,34 +247,65 @@ namespace Nacre
   }
 
   void
-  GrowthParameters::read_criterion(const Constants &constants,
-                                   const bool       is_path,
-                                   Growth          &growth) const
+  GrowthParameters::check_uses(const bool is_path) const
   {
     const std::string criterion =
       "'Growth/Criterion = " + name_of(criterion_) + "'";
-    const bool has_toughness = !Text::trim(toughness_text_).empty();
-    const bool has_length    = !Text::trim(length_text_).empty();
-    AssertThrow(growth.is_prescribed() || has_toughness,
-                ExcMessage(toughness_parameter + ": " + criterion +
-                           " needs it; give G_c, the energy per area of new "
-                           "crack."));
-    AssertThrow(!growth.is_prescribed() || !has_toughness,
-                ExcMessage(toughness_parameter + ": " + criterion +
-                           " doesn't use it; leave it out."));
-    const bool needs_length = growth.is_prescribed() && is_path;
-    AssertThrow(!needs_length || has_length,
-                ExcMessage(length_parameter + ": " + criterion +
-                           " needs it along a path; give the length by which "
-                           "tips have advanced at t, such as '0.1*t'."));
-    AssertThrow(needs_length || !has_length,
-                ExcMessage(length_parameter + ": " + criterion +
-                           (is_path ? "" : " in a linear analysis") +
-                           " doesn't use it; leave it out."));
-    if (has_toughness)
+    const auto is_given = [](const std::string &text) {
+      return !Text::trim(text).empty();
+    };
+    const bool by_energy   = criterion_ == GrowthCriterion::energy_release_rate;
+    const bool by_strength = criterion_ == GrowthCriterion::strength;
+    const bool has_length =
+      criterion_ == GrowthCriterion::prescribed && is_path;
+    for (const CriterionUse &use :
+         {CriterionUse{toughness_parameter,
+                       is_given(toughness_text_),
+                       by_energy,
+                       "give G_c, the energy per area of new crack."},
+          CriterionUse{strength_parameter,
+                       is_given(strength_text_),
+                       by_strength,
+                       "give the stress at which the material parts."},
+          CriterionUse{distance_parameter,
+                       is_given(distance_text_),
+                       by_strength,
+                       "give the length over which the stress is averaged, "
+                       "or '2 cells'."},
+          CriterionUse{starting_parameter, starting_ > 0, by_strength, ""},
+          CriterionUse{length_parameter,
+                       is_given(length_text_),
+                       has_length,
+                       "along a path give the length by which tips have "
+                       "advanced at t, such as '0.1*t'."}})
+      {
+        AssertThrow(!use.is_used || use.is_given || use.advice.empty(),
+                    ExcMessage(use.parameter + ": " + criterion +
+                               " needs it; " + use.advice));
+        const bool by_analysis = use.parameter == length_parameter &&
+                                 criterion_ == GrowthCriterion::prescribed;
+        AssertThrow(use.is_used || !use.is_given,
+                    ExcMessage(use.parameter + ": " + criterion +
+                               (by_analysis ? " in a linear analysis" : "") +
+                               " doesn't use it; leave it out."));
+      }
+  }
+
+  void
+  GrowthParameters::read_criterion(const Constants &constants,
+                                   Growth          &growth) const
+  {
+    if (growth.is_by_energy())
       growth.toughness =
         positive_number(toughness_text_, toughness_parameter, constants);
-    if (has_length)
+    if (growth.is_by_strength())
+      {
+        growth.strength =
+          positive_number(strength_text_, strength_parameter, constants);
+        growth.averaging_distance =
+          read_cell_length(distance_text_, distance_parameter, constants);
+      }
+    if (!Text::trim(length_text_).empty())
       growth.length =
         Expression(length_text_, length_parameter, constants, "x,y,z,t");
   }
@@ -231,9 +317,10 @@ namespace Nacre
   {
     const std::string text = Text::trim(direction_text_);
     if (text == "default")
-      growth.direction = has_intensities && !growth.is_prescribed() ?
-                           GrowthDirection::hoop_stress :
-                           GrowthDirection::straight;
+      growth.direction =
+        growth.is_by_strength() || (has_intensities && growth.is_by_energy()) ?
+          GrowthDirection::hoop_stress :
+          GrowthDirection::straight;
     else if (text == "hoop stress")
       growth.direction = GrowthDirection::hoop_stress;
     else if (text == "straight")
@@ -250,22 +337,11 @@ namespace Nacre
           VectorExpression(text, direction_parameter, constants, "x,y,z,t");
       }
     AssertThrow(growth.direction != GrowthDirection::hoop_stress ||
-                  has_intensities,
+                  has_intensities || growth.is_by_strength(),
                 ExcMessage(direction_parameter +
                            ": 'hoop stress' needs stress intensities, which "
                            "'Discretization/Kinematics = linear' has only; "
                            "choose 'straight' or a vector 'dx, dy, dz'."));
-  }
-
-  void
-  GrowthParameters::read_step(const Constants &constants, Growth &growth) const
-  {
-    std::string text        = Text::trim(step_text_);
-    growth.step_is_in_cells = take_last_word(text, "cells");
-    growth.step             = positive_number(text, step_parameter, constants);
-    AssertThrow(!growth.step_is_in_cells || growth.step >= 1.,
-                ExcMessage(step_parameter + ": found '" + step_text_ +
-                           "'; a tip advances by a cell at least, '1 cells'."));
   }
 
   void

@@ -111,32 +111,61 @@ namespace Nacre
           continue;
         const CutTrace::Tip end = find(shell.discretization, tip);
         tip.position            = end.position;
-        tip.step                = growth.step;
-        if (growth.step_is_in_cells)
-          tip.step *= cell_size_at(shell.discretization, end);
-        if (!growth.is_prescribed())
-          measure(shell, end, tip);
+        tip.step = growth.step.at(cell_size_at(shell.discretization, end));
+        if (growth.is_by_energy())
+          measure_energy(shell, end, tip);
         tip.angle =
           chosen_angle(shell.discretization, end, tip, shell.instant.time);
+        if (growth.is_by_strength())
+          measure_stress(shell, end, tip);
       }
+    starts_.clear();
+    if (n_starts_left() > 0)
+      starts_ = find_crack_starts(shell, growth, n_starts_left());
+  }
+
+  double
+  CrackGrowth::critical_factor() const
+  {
+    if (problem_.growth.is_prescribed())
+      return 1.;
+    const double drive     = largest_drive();
+    const bool   by_energy = problem_.growth.is_by_energy();
+    AssertThrow(
+      drive > 0.,
+      ExcMessage(
+        "Growth/Criterion: " +
+        std::string(by_energy ? "no tip releases energy under the loads and "
+                                "prescribed values of the file (largest "
+                                "G/(G_c h) = " :
+                                "nothing is pulled at the places where cracks "
+                                "may grow or start, under the loads and "
+                                "prescribed values of the file (largest "
+                                "stress over the strength = ") +
+        std::to_string(drive) + "); loads that open the cuts are needed."));
+    return by_energy ? 1. / std::sqrt(drive) : 1. / drive;
   }
 
   void
   CrackGrowth::scale(const double factor)
   {
+    const double drive =
+      problem_.growth.is_by_energy() ? factor * factor : factor;
+    for (CrackStart &start : starts_)
+      start.drive *= drive;
     for (GrowingTip &tip : tips_)
       {
         tip.rate *= factor * factor;
-        tip.drive *= factor * factor;
+        tip.drive *= drive;
         for (double &intensity : tip.intensities)
           intensity *= factor;
       }
   }
 
   void
-  CrackGrowth::measure(const SolvedShell   &shell,
-                       const CutTrace::Tip &end,
-                       GrowingTip          &tip) const
+  CrackGrowth::measure_energy(const SolvedShell   &shell,
+                              const CutTrace::Tip &end,
+                              GrowingTip          &tip) const
   {
     const Growth     &growth = problem_.growth;
     const std::string where  = "Growth/Tips, '" + tip.name + "'";
@@ -171,6 +200,27 @@ namespace Nacre
     tip.angle           = release.hoop_stress.angle;
   }
 
+  void
+  CrackGrowth::measure_stress(const SolvedShell   &shell,
+                              const CutTrace::Tip &end,
+                              GrowingTip          &tip) const
+  {
+    const Growth     &growth = problem_.growth;
+    const std::string where  = "Growth/Tips, '" + tip.name + "'";
+    const CrackTip    crack  = make_crack_tip(shell.discretization, end, where);
+    const bool        seeks  = growth.direction == GrowthDirection::hoop_stress;
+    const AveragedHoopStress stress =
+      averaged_hoop_stress(shell,
+                           crack,
+                           tip.end.cut,
+                           growth.averaging_distance.at(crack.cell_size),
+                           seeks ? std::optional<double>() : tip.angle,
+                           where);
+    tip.closed = crack.closed;
+    tip.drive  = stress.value / growth.strength;
+    tip.angle  = stress.angle;
+  }
+
   double
   CrackGrowth::chosen_angle(const Discretization &discretization,
                             const CutTrace::Tip  &end,
@@ -195,9 +245,10 @@ namespace Nacre
   bool
   CrackGrowth::has_tips() const
   {
-    return std::any_of(tips_.begin(), tips_.end(), [](const auto &tip) {
-      return tip.is_alive;
-    });
+    return n_starts_left() > 0 ||
+           std::any_of(tips_.begin(), tips_.end(), [](const auto &tip) {
+             return tip.is_alive;
+           });
   }
 
   double
@@ -207,6 +258,8 @@ namespace Nacre
     for (const GrowingTip &tip : tips_)
       if (tip.is_alive)
         largest = std::max(largest, tip.drive);
+    for (const CrackStart &start : starts_)
+      largest = std::max(largest, start.drive);
     return largest;
   }
 
@@ -237,9 +290,9 @@ namespace Nacre
                        const bool            takes_all)
   {
     const Growth &growth = problem_.growth;
-    Cuts         &cuts   = problem_.model.cuts;
     former_tips_         = tips_;
-    former_curves_       = cuts.curves;
+    former_curves_       = problem_.model.cuts.curves;
+    former_started_      = n_started_;
     const double least   = (1. - growth.tolerance) * largest_drive();
     ++n_steps_;
     for (GrowingTip &tip : tips_)
@@ -247,26 +300,65 @@ namespace Nacre
         const bool grows = growth.is_prescribed() ?
                              takes_all || is_behind(tip, time) :
                              tip.drive >= least;
-        if (!tip.is_alive || !grows)
-          continue;
-        const TipAdvance advance = advance_tip(discretization,
-                                               problem_.model.midsurface,
-                                               find(discretization, tip),
-                                               tip.angle,
-                                               tip.step,
-                                               cuts);
-        tip.advanced += tip.step;
-        tip.is_alive = advance.stays();
-        std::ostringstream text;
-        text << "growth step " << n_steps_ << ": " << tip.name
-             << " advances by " << Text::number(tip.step) << ", turned by "
-             << Text::number(tip.angle * 180. / numbers::PI) << " degrees";
-        if (advance.leaves)
-          text << ", and leaves the surface";
-        if (advance.met)
-          text << ", and meets the cut " << cuts.curves[*advance.met].name;
-        log_.progress() << text.str() << std::endl;
+        if (tip.is_alive && grows)
+          advance_tip(discretization, tip);
       }
+    for (const CrackStart &place : starts_)
+      if (place.drive >= least)
+        start(discretization, place);
+  }
+
+  void
+  CrackGrowth::advance_tip(const Discretization &discretization,
+                           GrowingTip           &tip)
+  {
+    Cuts            &cuts    = problem_.model.cuts;
+    const TipAdvance advance = Nacre::advance_tip(discretization,
+                                                  problem_.model.midsurface,
+                                                  find(discretization, tip),
+                                                  tip.angle,
+                                                  tip.step,
+                                                  cuts);
+    tip.advanced += tip.step;
+    tip.is_alive = advance.stays();
+    std::ostringstream text;
+    text << tip.name << " advances by " << Text::number(tip.step)
+         << ", turned by " << Text::number(tip.angle * 180. / numbers::PI)
+         << " degrees";
+    if (advance.leaves)
+      text << ", and leaves the surface";
+    if (advance.met)
+      text << ", and meets the cut " << cuts.curves[*advance.met].name;
+    tell(text.str());
+  }
+
+  void
+  CrackGrowth::start(const Discretization &discretization,
+                     const CrackStart     &place)
+  {
+    Cuts          &cuts   = problem_.model.cuts;
+    auto          &curves = cuts.curves;
+    const CutStart cut    = make_cut(discretization, place, cuts);
+    ++n_started_;
+    for (const bool at_end : {false, true})
+      if (at_end ? cut.has_end : cut.has_begin)
+        {
+          GrowingTip tip;
+          tip.end  = {static_cast<unsigned int>(curves.size()), at_end};
+          tip.name = cut.curve.name + (at_end ? " end" : " begin");
+          tips_.push_back(tip);
+        }
+    std::ostringstream text;
+    text << "the crack '" << cut.curve.name << "' starts at (" << place.position
+         << ')';
+    tell(text.str());
+    curves.push_back(cut.curve);
+  }
+
+  void
+  CrackGrowth::tell(const std::string &text) const
+  {
+    log_.progress() << "growth step " << n_steps_ << ": " << text << std::endl;
   }
 
   void
@@ -274,8 +366,37 @@ namespace Nacre
   {
     tips_                      = former_tips_;
     problem_.model.cuts.curves = former_curves_;
+    n_started_                 = former_started_;
     --n_steps_;
   }
+
+  namespace
+  {
+    /** Throws for shells that no criterion of strength knows. */
+    void
+    check_strength(const ShellProblem &problem)
+    {
+      const ShellModel &model = problem.model;
+      AssertThrow(!problem.growth.is_by_strength() ||
+                    model.section.n_layers() == 0,
+                  ExcMessage("Growth/Criterion: 'strength' is that of a "
+                             "homogeneous section, and this one has layers; "
+                             "choose 'energy release rate' or 'prescribed'."));
+      const bool starts = problem.growth.starting_cracks > 0;
+      AssertThrow(!starts || problem.assembly == AssemblyMethod::fast,
+                  ExcMessage("Growth/Starting cracks: 'Discretization/Assembly "
+                             "= reference' knows no cells that cuts divide; "
+                             "choose 'fast'."));
+      AssertThrow(!starts || model.mapping_degree == 0 ||
+                    model.mapping_degree == model.element.degree ||
+                    model.element.type != ElementType::lagrange,
+                  ExcMessage("Growth/Starting cracks: with cuts the geometry "
+                             "is isoparametric; found 'Discretization/Mapping "
+                             "degree = " +
+                             std::to_string(model.mapping_degree) +
+                             "', choose 0."));
+    }
+  } // namespace
 
   void
   check_growth(const ShellProblem &problem)
@@ -289,6 +410,13 @@ namespace Nacre
                   "Growth/Tips: with 'Analysis/Type = " + name_of(path.type) +
                   "' cuts don't grow; choose 'linear', 'static', 'relaxation' "
                   "or 'dynamic', or 'Tips = none'."));
+    AssertThrow(problem.growth.starting_cracks == 0 || !path.is_dynamic() ||
+                  problem.growth.release_time,
+                ExcMessage(
+                  "Growth/Release time: 'default' is that of tips "
+                  "that advance, and cracks may start (Growth/Starting "
+                  "cracks); give the time in which the lips of a new "
+                  "crack are released, 0 for at once."));
     AssertThrow(!problem.growth.release_time || path.is_dynamic(),
                 ExcMessage("Growth/Release time: with 'Analysis/Type = " +
                            name_of(path.type) +
@@ -297,16 +425,19 @@ namespace Nacre
                            "dynamic'."));
     AssertThrow(problem.growth.is_prescribed() || !path.is_linear() ||
                   !problem.model.section.has_initial_strain(),
-                ExcMessage(
-                  "Growth/Criterion: in a linear analysis 'energy release "
-                  "rate' takes the factor of all loads at which a tip "
-                  "advances, and initial strains (Section/Initial strain) have "
-                  "none; choose 'prescribed', or 'Analysis/Type = static'."));
-    const bool has_intensities = !problem.growth.is_prescribed();
+                ExcMessage("Growth/Criterion: in a linear analysis '" +
+                           name_of(problem.growth.criterion) +
+                           "' takes the factor of all loads at which a tip "
+                           "advances, and initial strains (Section/Initial "
+                           "strain) have none; choose 'prescribed', or "
+                           "'Analysis/Type = static'."));
+    const bool has_stresses = !problem.growth.is_prescribed();
     AssertThrow(problem.growth.direction != GrowthDirection::hoop_stress ||
-                  has_intensities,
-                ExcMessage("Growth/Direction: 'hoop stress' needs the stress "
-                           "intensities of 'Criterion = energy release rate'; "
-                           "choose 'straight' or a vector 'dx, dy, dz'."));
+                  has_stresses,
+                ExcMessage("Growth/Direction: 'hoop stress' needs the stresses "
+                           "of 'Criterion = energy release rate' or "
+                           "'strength'; choose 'straight' or a vector 'dx, "
+                           "dy, dz'."));
+    check_strength(problem);
   }
 } // namespace Nacre

@@ -5,7 +5,6 @@
 #include <nacre/simulation/growth_analysis.h>
 #include <nacre/simulation/growth_monitor.h>
 
-#include <cmath>
 #include <utility>
 
 namespace Nacre
@@ -113,22 +112,6 @@ namespace Nacre
     recorder.add_summary(output.monitor.summary());
   }
 
-  double
-  GrowthAnalysis::load_factor(const SolvedShell &unit) const
-  {
-    if (problem_.growth.is_prescribed())
-      return 1.;
-    const double drive = growth_.largest_drive();
-    AssertThrow(drive > 0.,
-                ExcMessage("Growth/Criterion: no tip releases energy under the "
-                           "loads and prescribed values of the file (largest "
-                           "G/(G_c h) = " +
-                           std::to_string(drive) + ", strain energy " +
-                           std::to_string(unit.energies.total()) +
-                           "); loads that open the cuts are needed."));
-    return 1. / std::sqrt(drive);
-  }
-
   std::unique_ptr<DiscreteShell::Mesh>
   GrowthAnalysis::run_step(std::unique_ptr<DiscreteShell::Mesh> mesh,
                            Recorder                            &recorder,
@@ -146,7 +129,7 @@ namespace Nacre
       }
     const LinearSolution solution(shell, nullptr, setup_seconds, log_);
     growth_.observe(solution.solved());
-    const double           factor = load_factor(solution.solved());
+    const double           factor = growth_.critical_factor();
     const FactoredSolution factored(solution.solved(), shell, factor);
     growth_.scale(factor);
     output.monitor.observe(growth_, growth_.n_steps(), factored.solved());

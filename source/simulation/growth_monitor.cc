@@ -23,12 +23,19 @@ namespace Nacre
 
     /** The numbers of the cuts that grow. */
     std::set<unsigned int>
-    growing_cuts(const ShellProblem &problem)
+    growing_cuts(const CrackGrowth &growth)
     {
       std::set<unsigned int> cuts;
-      for (const Growth::Tip &tip : problem.growth.tips)
-        cuts.insert(tip.cut);
+      for (const GrowingTip &tip : growth.tips())
+        cuts.insert(tip.end.cut);
       return cuts;
+    }
+
+    std::string
+    in_one_word(std::string name)
+    {
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
     }
 
     double
@@ -52,63 +59,47 @@ namespace Nacre
     , log_(log)
   {}
 
-  std::string
-  GrowthMonitor::header(const CrackGrowth &growth) const
+  void
+  GrowthMonitor::add_tip(const GrowingTip &tip, const Growth &growth, Row &row)
   {
-    const bool         has_rates = !problem_.growth.is_prescribed();
-    std::ostringstream text;
-    text << "step,time,load_factor";
-    for (const unsigned int cut : growing_cuts(problem_))
-      text << ",length_" << problem_.model.cuts.curves[cut].name;
-    for (const GrowingTip &tip : growth.tips())
-      {
-        std::string name = tip.name;
-        std::replace(name.begin(), name.end(), ' ', '_');
-        for (const auto *const what : {"x", "y", "z"})
-          text << ',' << what << '_' << name;
-        if (has_rates)
-          text << ",closed_" << name << ",G_" << name;
-        if (tip.has_intensities)
-          for (const auto &what : intensity_names)
-            text << ',' << what << '_' << name;
-        text << ",angle_" << name;
-      }
-    for (const auto &quantity : quantities_.quantities())
-      text << ',' << quantity.name;
-    text << '\n';
-    return text.str();
+    const std::string name = '_' + in_one_word(tip.name);
+    for (unsigned int c = 0; c < spacedim; ++c)
+      row.emplace_back("xyz"[c] + name, tip.position[c]);
+    if (!growth.is_prescribed())
+      row.emplace_back("closed" + name, tip.closed);
+    if (growth.is_by_energy())
+      row.emplace_back("G" + name, tip.rate);
+    if (growth.is_by_strength())
+      row.emplace_back("stress_ratio" + name, tip.drive);
+    if (tip.has_intensities)
+      for (unsigned int k = 0; k < tip.intensities.size(); ++k)
+        row.emplace_back(intensity_names[k] + name, tip.intensities[k]);
+    row.emplace_back("angle" + name, tip.angle * 180. / numbers::PI);
   }
 
-  void
-  GrowthMonitor::observe(const CrackGrowth &growth,
-                         const double       time,
-                         const SolvedShell &shell)
+  GrowthMonitor::Row
+  GrowthMonitor::make_row(const CrackGrowth &growth,
+                          const double       time,
+                          const SolvedShell &shell) const
   {
-    const bool         has_rates = !problem_.growth.is_prescribed();
-    std::ostringstream row, line;
-    row << std::setprecision(12) << growth.n_steps() << ',' << time << ','
-        << shell.instant.factor;
-    line << std::setprecision(6) << "growth step " << growth.n_steps()
-         << ", load factor " << shell.instant.factor;
-    for (const unsigned int cut : growing_cuts(problem_))
-      {
-        const double length = length_of_cut(shell, cut);
-        row << ',' << length;
-        line << ", " << problem_.model.cuts.curves[cut].name << " has length "
-             << length;
-      }
+    Row row;
+    row.emplace_back("step", growth.n_steps());
+    row.emplace_back("time", time);
+    row.emplace_back("load_factor", shell.instant.factor);
+    for (const unsigned int cut : growing_cuts(growth))
+      row.emplace_back("length_" +
+                         in_one_word(problem_.model.cuts.curves[cut].name),
+                       length_of_cut(shell, cut));
     for (const GrowingTip &tip : growth.tips())
+      add_tip(tip, problem_.growth, row);
+    if (problem_.growth.starting_cracks > 0)
       {
+        // Without any tension there is no place.
+        const auto      &starts = growth.starts();
+        const CrackStart first  = starts.empty() ? CrackStart() : starts[0];
+        row.emplace_back("stress_ratio_start", first.drive);
         for (unsigned int c = 0; c < spacedim; ++c)
-          row << ',' << tip.position[c];
-        if (has_rates)
-          row << ',' << tip.closed << ',' << tip.rate;
-        if (has_rates && tip.is_alive)
-          line << ", G of " << tip.name << " = " << tip.rate;
-        if (tip.has_intensities)
-          for (const double intensity : tip.intensities)
-            row << ',' << intensity;
-        row << ',' << tip.angle * 180. / numbers::PI;
+          row.emplace_back("xyz"[c] + std::string("_start"), first.position[c]);
       }
     for (const auto &quantity : quantities_.quantities())
       {
@@ -117,22 +108,81 @@ namespace Nacre
                     ExcMessage("The quantity '" + quantity.name +
                                "' is not a finite number in growth step " +
                                std::to_string(growth.n_steps()) + "."));
-        row << ',' << value;
-        line << ", " << quantity.name << " = " << value;
+        row.emplace_back(quantity.name, value);
       }
-    row << '\n';
+    return row;
+  }
+
+  void
+  GrowthMonitor::write_rows() const
+  {
+    const auto columns = [](const Row &row) {
+      std::vector<std::string> names;
+      for (const auto &[name, value] : row)
+        names.push_back(name);
+      return names;
+    };
+    // Tips are never taken away: the last row has all columns, unless a step
+    // is taken back.
+    const auto names = columns(rows_.back());
+    const bool anew =
+      rows_.size() == 1 || columns(rows_[rows_.size() - 2]) != names;
+    std::ostringstream text;
+    text << std::setprecision(12);
+    if (anew)
+      for (std::size_t c = 0; c < names.size(); ++c)
+        text << names[c] << (c + 1 < names.size() ? ',' : '\n');
+    for (std::size_t r = anew ? 0 : rows_.size() - 1; r < rows_.size(); ++r)
+      for (std::size_t c = 0; c < names.size(); ++c)
+        {
+          const auto field =
+            std::find_if(rows_[r].begin(), rows_[r].end(), [&](const auto &x) {
+              return x.first == names[c];
+            });
+          if (field != rows_[r].end())
+            text << field->second;
+          text << (c + 1 < names.size() ? ',' : '\n');
+        }
+    if (anew)
+      write_file(csv_, [&](std::ostream &out) { out << text.str(); });
+    else
+      {
+        std::ofstream out(csv_, std::ios::app);
+        out << text.str() << std::flush;
+        AssertThrow(out,
+                    ExcMessage("Writing '" + csv_ +
+                               "' failed: is the disk full?"));
+      }
+  }
+
+  void
+  GrowthMonitor::observe(const CrackGrowth &growth,
+                         const double       time,
+                         const SolvedShell &shell)
+  {
+    rows_.push_back(make_row(growth, time, shell));
+    std::ostringstream line;
+    line << std::setprecision(6) << "growth step " << growth.n_steps()
+         << ", load factor " << shell.instant.factor;
+    for (const unsigned int cut : growing_cuts(growth))
+      line << ", " << problem_.model.cuts.curves[cut].name << " has length "
+           << length_of_cut(shell, cut);
+    for (const GrowingTip &tip : growth.tips())
+      if (tip.is_alive && problem_.growth.is_by_energy())
+        line << ", G of " << tip.name << " = " << tip.rate;
+      else if (tip.is_alive && problem_.growth.is_by_strength())
+        line << ", stress over strength ahead of " << tip.name << " = "
+             << tip.drive;
+    if (!growth.starts().empty())
+      line << ", away from tips = " << growth.starts()[0].drive << " at ("
+           << growth.starts()[0].position << ')';
+    const auto &quantities = quantities_.quantities();
+    const auto &row        = rows_.back();
+    for (std::size_t k = 0; k < quantities.size(); ++k)
+      line << ", " << quantities[k].name << " = "
+           << row[row.size() - quantities.size() + k].second;
     log_.progress() << line.str() << std::endl;
-    const std::string head = n_rows_ == 0 ? header(growth) : "";
-    run_on_root(communicator_, [&]() {
-      if (n_rows_ == 0)
-        write_file(csv_, [&](std::ostream &out) { out << head; });
-      std::ofstream out(csv_, std::ios::app);
-      out << row.str() << std::flush;
-      AssertThrow(out,
-                  ExcMessage("Writing '" + csv_ +
-                             "' failed: is the disk full?"));
-    });
-    ++n_rows_;
+    run_on_root(communicator_, [&]() { write_rows(); });
     n_steps_ = growth.n_steps();
   }
 

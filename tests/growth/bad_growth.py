@@ -104,3 +104,36 @@ case("growth_adaptive", ["Adaptive refinement/Cycles", "Growth/Tips"],
         "Adaptive refinement/Max dofs": "1"})
 case("growth_vector", ["Growth/Direction: at the tip 'slit end'", "surface"],
      args=(), Direction="0, 0, 1")
+case("growth_no_strength", ["Growth/Strength", "needs it"],
+     Criterion="strength", Toughness="", Averaging_distance="0.2")
+case("growth_strength_of_nothing", ["Growth/Strength", "is not positive"],
+     Criterion="strength", Toughness="", Averaging_distance="0.2",
+     Strength="0")
+case("growth_no_distance", ["Growth/Averaging distance", "needs it"],
+     Criterion="strength", Toughness="", Strength="1")
+case("growth_toughness_of_strength",
+     ["Growth/Toughness", "'Growth/Criterion = strength' doesn't use it"],
+     Criterion="strength", Strength="1", Averaging_distance="0.2")
+case("growth_starts_by_energy",
+     ["Growth/Starting cracks", "energy release rate' doesn't use it"],
+     Starting_cracks="1")
+case("growth_strength_without_tips",
+     ["Growth/Tips: none, but 'Strength' is given"], Tips="none",
+     Criterion="strength", Toughness="", Strength="1")
+case("growth_strength_of_layers",
+     ["Growth/Criterion", "homogeneous section"],
+     Criterion="strength", Toughness="", Averaging_distance="0.2",
+     Strength="1", **{"Section/Type": "laminate",
+                      "Section/Laminate/Materials":
+                      "ply: E1 = 30, E2 = 10, nu12 = 0.25, G12 = 6",
+                      "Section/Laminate/Stack": "[0/90]",
+                      "Section/Laminate/Thickness": "0.05",
+                      "Section/Laminate/Material direction": "y"})
+case("growth_short_average",
+     ["Growth/Averaging distance", "less than a cell"], args=(),
+     Criterion="strength", Toughness="", Averaging_distance="0.05",
+     Strength="1")
+case("growth_starts_in_motion", ["Growth/Release time", "Starting cracks"],
+     Criterion="strength", Toughness="", Averaging_distance="0.2",
+     Strength="1", Starting_cracks="1",
+     **{"Analysis/Type": "dynamic", "Section/Density": "1"})

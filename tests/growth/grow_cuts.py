@@ -118,7 +118,67 @@ def knife(rows):
     check_near("the last row's lag", 1.05 - .25 * rows[-1]["step"], .05, 1e-9)
 
 
+def short(rows):
+    """Novozhilov's mean of Westergaard's stress ahead of the crack."""
+    a, d = .3, .2
+    check_near("load factor", rows[0]["load_factor"],
+               20. * .05 / math.sqrt(1. + 2. * a / d), 2e-4)
+    check(abs(rows[0]["angle_crack_end"]) < 1., "straight")
+    check_near("stress over strength",
+               rows[0]["stress_ratio_crack_end"], 1., 1e-9)
+
+
+def kirsch(rows):
+    """The mean of Kirsch's stress over d from the edge of the hole."""
+    a, d = .41, .2
+    mean = 1. + (a - a**2 / (a + d) + a - a**4 / (a + d)**3) / (2. * d)
+    check_near("load factor", rows[0]["load_factor"], 10. / mean, .03)
+    check(abs(rows[0]["x_start"]) < .02 and
+          abs(abs(rows[0]["y_start"]) - a) < .05, "at the hole's side")
+    check("length_started_1" in rows[1] and "length_started_2" in rows[1],
+          "two cracks start")
+    for number in (1, 2):
+        check_near("length", rows[1][f"length_started_{number}"], .3, .02)
+
+
+def bent(rows):
+    """A plate of which the middle is thin, without any cut, is bent."""
+    check_near("load factor", rows[0]["load_factor"], 100. * .05**2 / 6., 3e-4)
+    check_near("y of the start", rows[0]["y_start"], 0., .1)
+    # From the edge inwards
+    check_near("length", rows[1]["length_started_1"], .4, .001)
+    check_near("x of the tip", rows[1]["x_started_1_end"], -.6, .001)
+    check(rows[2]["x_started_1_end"] > -.3, "it grows")
+
+
+def pulled(rows):
+    """Along a path cracks start when the strength is reached."""
+    started = next(i for i, row in enumerate(rows) if row["step"] > 0)
+    for row in rows[:started - 1]:
+        check(row["stress_ratio_start"] < 1., "below the strength")
+    check(rows[started - 1]["stress_ratio_start"] >= 1., "it is reached")
+    check_near("time", rows[started]["time"], rows[started - 1]["time"], 0)
+    check_near("steps", rows[-1]["step"], 2, 0)
+    check(rows[started]["U"] < rows[started - 1]["U"], "energy is released")
+
+
 UNIT = {"Study/Degrees": "2"}
+HOLE = {"Growth/Criterion": "strength", "Growth/Strength": "100",
+        "Growth/Averaging distance": "0.2", "Growth/Starting cracks": "2",
+        "Growth/Step": "0.3", "Growth/Maximum steps": "1",
+        "Study/Degrees": "3", "Study/Refinements": "0"}
+BENT = {**UNIT, "Cuts/Cuts": "", "Cuts/Remove": "", "Loads/Edge forces": "",
+        "Loads/Edge moments": "v=0: q; v=1: q", "Section/Poisson's ratio": "0",
+        "Section/Thickness": "H*(1 + 0.2*y^2)", "Mid-surface/Subdivisions":
+        "15", "Growth/Step": "0.4", "Growth/Starting cracks": "1",
+        "Growth/Averaging distance": "0.15", "Growth/Maximum steps": "2"}
+PULLED = {**UNIT, "Mid-surface/Subdivisions": "11",
+          "Growth/Maximum steps": "2", "Analysis/Type": "static",
+          "Analysis/Time step": "0.5", "Loads/Edge forces": "",
+          "Boundary conditions/Points": "(-1, -1, 0): x = 0",
+          "Boundary conditions/Edges": "v=0: y = 0, z = 0; v=1: y = 0.15*t, "
+          "z = 0", "Growth/Step": "2 cells"}
+
 CASES = {
     "inclined": ("inclined_crack.prm", UNIT, (1,), inclined),
     "tube": ("cracked_tube.prm", {**UNIT, "Growth/Maximum steps": "3"}, (1,),
@@ -132,12 +192,17 @@ CASES = {
         "L = 5, b = 1, a = 2, d = 0.3, Gc = 1", "Growth/Toughness": "",
         "Growth/Criterion": "prescribed", "Growth/Length": "1.05*t",
         "Growth/Step": "0.25", "Analysis/Time step": "0.5"}, (1, 2), knife),
+    "short": ("short_crack.prm", {}, (1,), short),
+    "kirsch": ("plate_with_hole.prm", HOLE, (1,), kirsch),
+    "bent": ("starting_cracks.prm", BENT, (1,), bent),
+    "pulled": ("starting_cracks.prm", PULLED, (1, 2, 3), pulled),
 }
 
 
 def read_table(path):
     with open(path, newline="", encoding="utf-8") as file:
-        return [{name: float(value) for name, value in row.items()}
+        # Before a crack starts its columns are empty.
+        return [{name: float(value) for name, value in row.items() if value}
                 for row in csv.DictReader(file)]
 
 
@@ -154,7 +219,7 @@ def run_case(nacre, file, parameters, ranks, check_rows):
         check_rows(rows)
         first = first or rows
         for row, other in zip(first, rows):
-            for name in ("load_factor", "U" if "U" in row else "o"):
+            for name in {"load_factor", "U", "o"} & set(row):
                 check_near(f"{name} on {n_ranks} ranks", other[name],
                            row[name], 1e-7 * abs(row[name]))
 

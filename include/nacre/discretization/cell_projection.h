@@ -6,13 +6,45 @@
 
 #include <nacre/base/types.h>
 
+#include <deal.II/fe/fe.h>
+
 #include <deal.II/grid/reference_cell.h>
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace Nacre
 {
+  /** Point and derivatives of a mid-surface given by nodes. */
+  struct NodeSurface
+  {
+    const FiniteElement<dim, spacedim> &fe;
+    const std::vector<Point<spacedim>> &nodes;
+
+    Point<spacedim>
+    position(const Point<dim> &unit) const
+    {
+      Point<spacedim> x;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        x += fe.shape_value(a, unit) * nodes[a];
+      return x;
+    }
+
+    std::array<Tensor<1, spacedim>, dim>
+    tangents(const Point<dim> &unit) const
+    {
+      std::array<Tensor<1, spacedim>, dim> tangents;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        {
+          const auto gradient = fe.shape_grad(a, unit);
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            tangents[alpha] += gradient[alpha] * Tensor<1, spacedim>(nodes[a]);
+        }
+      return tangents;
+    }
+  };
+
   /** A cell's map to points, with derivatives by differences into the cell. */
   template <typename Map>
   struct DifferentiatedMap
@@ -50,7 +82,7 @@ namespace Nacre
   /**
    * The unit point of the nearest point to @p target on one cell: projected
    * Gauss-Newton from @p start. @p surface has position(unit) and
-   * tangents(unit), as LocalSurface and DifferentiatedMap do.
+   * tangents(unit), as NodeSurface and DifferentiatedMap do.
    */
   template <typename Surface>
   Point<dim>

@@ -21,6 +21,9 @@ namespace Nacre
   {
     /** When its energy release rate reaches the toughness times h. */
     energy_release_rate,
+    /** When the stress ahead, averaged over a distance, reaches the strength.
+     */
+    strength,
     /** As the user says: a knife. */
     prescribed
   };
@@ -30,11 +33,25 @@ namespace Nacre
   /** Where a tip turns. */
   enum class GrowthDirection
   {
-    /** To the largest hoop stress, (C.10) of doc/growth.md. */
+    /** To the largest hoop stress: (C.10), or what is averaged. */
     hoop_stress,
     straight,
     /** Along a vector. */
     expression
+  };
+
+  /** A length, or a number of edges of the cells there. */
+  struct CellLength
+  {
+    double value       = 0.;
+    bool   is_in_cells = false;
+
+    /** @param cell_size of the cells there (length) */
+    double
+    at(const double cell_size) const
+    {
+      return is_in_cells ? value * cell_size : value;
+    }
   };
 
   /** How cuts grow. */
@@ -54,6 +71,11 @@ namespace Nacre
     GrowthCriterion criterion = GrowthCriterion::energy_release_rate;
     /** G_c, energy per area of the crack (force/length). */
     double toughness = 0.;
+    /** sigma_c (force/length^2), and the distance of the averages. */
+    double     strength = 0.;
+    CellLength averaging_distance;
+    /** How many cracks may start at most where there are none. */
+    unsigned int starting_cracks = 0;
     /** Tips whose G is lower than the largest by this part grow, too. */
     double tolerance = 0.1;
 
@@ -62,8 +84,7 @@ namespace Nacre
     VectorExpression along = {};
 
     /** How far a tip advances at once: cells at the tip, or a length. */
-    double step             = 3.;
-    bool   step_is_in_cells = true;
+    CellLength step = {3., true};
     /** Length by which each tip has advanced at t, if that is prescribed. */
     Expression length = {};
 
@@ -78,13 +99,25 @@ namespace Nacre
     bool
     is_on() const
     {
-      return !tips.empty();
+      return !tips.empty() || starting_cracks > 0;
     }
 
     bool
     is_prescribed() const
     {
       return criterion == GrowthCriterion::prescribed;
+    }
+
+    bool
+    is_by_energy() const
+    {
+      return criterion == GrowthCriterion::energy_release_rate;
+    }
+
+    bool
+    is_by_strength() const
+    {
+      return criterion == GrowthCriterion::strength;
     }
   };
 
@@ -114,10 +147,13 @@ namespace Nacre
     void
     read_tips(const Cuts &cuts, Growth &growth) const;
 
+    /** Throws for parameters that the criterion doesn't use, or that it needs.
+     */
     void
-    read_criterion(const Constants &constants,
-                   const bool       is_path,
-                   Growth          &growth) const;
+    check_uses(const bool is_path) const;
+
+    void
+    read_criterion(const Constants &constants, Growth &growth) const;
 
     void
     read_direction(const Constants &constants,
@@ -125,14 +161,14 @@ namespace Nacre
                    Growth          &growth) const;
 
     void
-    read_step(const Constants &constants, Growth &growth) const;
-
-    void
     read_release(const Constants &constants, Growth &growth) const;
 
     std::string     tips_text_      = "none";
     GrowthCriterion criterion_      = Growth().criterion;
     std::string     toughness_text_ = "";
+    std::string     strength_text_  = "";
+    std::string     distance_text_  = "";
+    unsigned int    starting_       = Growth().starting_cracks;
     double          tolerance_      = Growth().tolerance;
     std::string     direction_text_ = "default";
     std::string     step_text_      = "3 cells";

@@ -7,6 +7,7 @@
 #include <nacre/discretization/cut_growth.h>
 #include <nacre/postprocess/shell_state.h>
 #include <nacre/simulation/shell_problem.h>
+#include <nacre/simulation/stress_criterion.h>
 
 #include <array>
 #include <string>
@@ -38,7 +39,7 @@ namespace Nacre
     /** TipRelease::intensities, if they are known. */
     bool                  has_intensities = false;
     std::array<double, 4> intensities{{0., 0., 0., 0.}};
-    /** G/(G_c h) (1). */
+    /** G/(G_c h), or the averaged stress over the strength (1). */
     double drive = 0.;
     /** Of the next step, from ahead to t0 x ahead (rad). */
     double angle = 0.;
@@ -69,7 +70,16 @@ namespace Nacre
     void
     observe(const SolvedShell &shell);
 
-    /** In linear analyses: all loads and prescribed values take a factor. */
+    /**
+     * In linear analyses: the factor of all loads and prescribed values at
+     * which the first tip advances, (largest_drive())^-1/2 by energy,
+     * 1/largest_drive() by strength, 1 if growth is prescribed. Throws if
+     * loads don't open anything.
+     */
+    double
+    critical_factor() const;
+
+    /** All loads and prescribed values take a factor. */
     void
     scale(const double factor);
 
@@ -79,6 +89,13 @@ namespace Nacre
       return tips_;
     }
 
+    /** Where cracks would start next, as observe() has found it. */
+    const std::vector<CrackStart> &
+    starts() const
+    {
+      return starts_;
+    }
+
     /** Steps so far. */
     unsigned int
     n_steps() const
@@ -86,7 +103,7 @@ namespace Nacre
       return n_steps_;
     }
 
-    /** Whether there are tips that may advance. */
+    /** Whether there are tips that may advance, or start. */
     bool
     has_tips() const;
 
@@ -97,7 +114,7 @@ namespace Nacre
       return !has_tips() || n_steps_ >= problem_.growth.maximum_steps;
     }
 
-    /** The largest G/(G_c h) that observe() has found (1). */
+    /** The largest GrowingTip::drive or CrackStart::drive (1). */
     double
     largest_drive() const;
 
@@ -127,10 +144,33 @@ namespace Nacre
     bool
     is_behind(const GrowingTip &tip, const double time) const;
 
+    /** How many cracks may start still. */
+    unsigned int
+    n_starts_left() const
+    {
+      return problem_.growth.starting_cracks - n_started_;
+    }
+
     void
-    measure(const SolvedShell   &shell,
-            const CutTrace::Tip &end,
-            GrowingTip          &tip) const;
+    measure_energy(const SolvedShell   &shell,
+                   const CutTrace::Tip &end,
+                   GrowingTip          &tip) const;
+
+    void
+    measure_stress(const SolvedShell   &shell,
+                   const CutTrace::Tip &end,
+                   GrowingTip          &tip) const;
+
+    /** Tell, as "growth step 1: TEXT". */
+    void
+    tell(const std::string &text) const;
+
+    void
+    advance_tip(const Discretization &discretization, GrowingTip &tip);
+
+    /** Add the cut of a crack that starts, and its tips. Collective. */
+    void
+    start(const Discretization &discretization, const CrackStart &place);
 
     double
     chosen_angle(const Discretization &discretization,
@@ -141,10 +181,15 @@ namespace Nacre
     ShellProblem           &problem_;
     Log                    &log_;
     std::vector<GrowingTip> tips_;
-    unsigned int            n_steps_ = 0;
-    /** Before the last step. */
+    std::vector<CrackStart> starts_;
+    unsigned int            n_started_ = 0;
+    unsigned int            n_steps_   = 0;
+    /** @name Before the last step */
+    //@{
     std::vector<GrowingTip> former_tips_;
     std::vector<CutCurve>   former_curves_;
+    unsigned int            former_started_ = 0;
+    //@}
   };
 
   /** Throws for analyses that can't lengthen the cuts of @p problem. */

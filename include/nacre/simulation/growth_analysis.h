@@ -14,10 +14,11 @@ namespace Nacre
 
   /**
    * Linear solves between which cuts grow, a step each. By the energy release
-   * rate G, proportional to the square of the loads, each state takes the
-   * factor of loads and prescribed values at which the first tip advances,
+   * rate G, proportional to the square of the loads, and by strength, each
+   * state takes the factor of loads and prescribed values at which the first
+   * tip advances,
    *
-   *   factor = min over tips of (G_c h / G)^1/2,
+   *   factor = min over tips of (G_c h / G)^1/2, or of strength over stress,
    *
    * whether it rises or falls: the length of the cracks is the control. The
    * study's table holds the last state.
@@ -51,10 +52,6 @@ namespace Nacre
   private:
     class FactoredSolution;
     struct Output;
-
-    /** The factor of the loads of unit size that the tips ask for. */
-    double
-    load_factor(const SolvedShell &unit) const;
 
     /**
      * Solve, and lengthen the cuts, on @p mesh, null for that of the problem.

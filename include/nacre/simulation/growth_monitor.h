@@ -9,13 +9,16 @@
 #include <nacre/simulation/output_options.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace Nacre
 {
   /**
    * What is told and written of the states between which cuts grow: a row of
    * `NAME_growth.csv` with the tips, the lengths of the cuts and all
-   * quantities, and a line on the terminal.
+   * quantities, and a line on the terminal. Rows before a crack starts have
+   * empty fields in its columns.
    */
   class GrowthMonitor
   {
@@ -41,15 +44,27 @@ namespace Nacre
     summary() const;
 
   private:
-    std::string
-    header(const CrackGrowth &growth) const;
+    /** Names of columns, and what stands there. */
+    using Row = std::vector<std::pair<std::string, double>>;
+
+    Row
+    make_row(const CrackGrowth &growth,
+             const double       time,
+             const SolvedShell &shell) const;
+
+    static void
+    add_tip(const GrowingTip &tip, const Growth &growth, Row &row);
+
+    /** Append the last row, or write all if there are new columns. */
+    void
+    write_rows() const;
 
     const MPI_Comm              communicator_;
     const std::string           csv_;
     const ShellProblem         &problem_;
     const QuantitiesOfInterest &quantities_;
     Log                        &log_;
-    unsigned int                n_rows_  = 0;
+    std::vector<Row>            rows_;
     unsigned int                n_steps_ = 0;
   };
 } // namespace Nacre
