@@ -198,7 +198,13 @@ def check_change_of_ranks(arguments, folder, element, field_format, changes):
         missing = [file for file in listed if not (out / file).exists()]
         if len(listed) != 4 or missing:
             sys.exit(f"listed are {listed}; not there: {missing}")
-    # Another mesh, and a file that is gone.
+
+
+def check_refusals(arguments, folder):
+    """Another mesh, and a file that is gone."""
+    (folder / "run.prm").write_text(PRM)
+    short = ("--set", "Analysis/End time=0.06")
+    must_run(arguments, folder, *short, ranks=2)
     code, text = run(arguments, folder, *short, "--restart", "--set",
                      "Study/Refinements=1", ranks=2)
     if code == 0 or "of another problem" not in text:
@@ -225,18 +231,21 @@ def main():
                 folder.mkdir()
                 check_change_of_ranks(arguments, folder, element,
                                       field_format, changes)
+            check_refusals(arguments, folder)
         print("the same path on changing numbers of ranks")
         return
     with tempfile.TemporaryDirectory() as name:
         alone, killed = (pathlib.Path(name, run) for run in ("alone", "killed"))
         failing = pathlib.Path(name, "failing")
+        # A step on several ranks takes ten times as long, as a start does.
+        prm = PRM if arguments.ranks == 1 else PRM.replace("= 2\n  set Time",
+                                                           "= 0.8\n  set Time")
         for folder in (alone, killed, failing):
             folder.mkdir()
-            (folder / "run.prm").write_text(PRM)
+            (folder / "run.prm").write_text(prm)
         code, text = run(arguments, alone)
         if code != 0:
             sys.exit(text)
-        # A start on several ranks takes ten times as long.
         n_kills = 10 if arguments.ranks == 1 else 4
         hits = kill_and_restart(arguments, killed, n_kills)
         if hits < n_kills:

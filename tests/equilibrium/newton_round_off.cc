@@ -28,7 +28,11 @@ solve(double &u, const double known_round_off_work)
     const double r =
       k * (x + x * x) - k * (solution + solution * solution) + sign * noise;
     du = -r / (k * (1. + 2. * x));
-    return NewtonSolver::Step{std::abs(r), -r * du(0), known_round_off_work, 0};
+    return NewtonSolver::Step{std::abs(r),
+                              -r * du(0),
+                              known_round_off_work,
+                              0,
+                              {}};
   };
   const auto result =
     NewtonSolver(NewtonSolver::Parameters()).solve(vector, step);
