@@ -215,7 +215,7 @@ namespace Nacre
                            tip.end.cut,
                            growth.averaging_distance.at(crack.cell_size),
                            seeks ? std::optional<double>() : tip.angle,
-                           where);
+                           tip.name);
     tip.closed = crack.closed;
     tip.drive  = stress.value / growth.strength;
     tip.angle  = stress.angle;

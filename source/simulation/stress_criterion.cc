@@ -368,14 +368,14 @@ namespace Nacre
                        const unsigned int          cut,
                        const double                distance,
                        const std::optional<double> angle,
-                       const std::string          &where)
+                       const std::string          &tip)
   {
     AssertThrow(
       crack.has_functions || distance >= (1. - 1e-6) * crack.cell_size,
       ExcMessage("Growth/Averaging distance: " + Text::number(distance) +
                  " is less than a cell (" + Text::number(crack.cell_size) +
-                 ") at the tip of " + where +
-                 ", where stresses of cells mean nothing; choose a "
+                 ") at the tip '" + tip +
+                 "', where stresses of single cells mean nothing; choose a "
                  "finer mesh, or 'Cuts/Tips = branch functions'."));
     const int                n = angle ? 0 : n_lines_on_side;
     std::vector<SurfaceLine> lines;

@@ -37,7 +37,7 @@ namespace Nacre
    * @param cut the tip's own
    * @param distance d (length)
    * @param angle none: all of them
-   * @param where begins the messages
+   * @param tip its name, for messages
    */
   AveragedHoopStress
   averaged_hoop_stress(const ShellState           &state,
@@ -45,7 +45,7 @@ namespace Nacre
                        const unsigned int          cut,
                        const double                distance,
                        const std::optional<double> angle,
-                       const std::string          &where);
+                       const std::string          &tip);
 
   /** A place away from tips where a crack may start. */
   struct CrackStart
