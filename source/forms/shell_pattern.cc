@@ -156,7 +156,7 @@ namespace Nacre
       /** Append the blocks of the cell's dofs: consecutive numbers. */
       static void
       append_blocks(const FiniteElement<dim, spacedim> &fe,
-                    const unsigned int                  n_lines,
+                    const CellPart                     &part,
                     Dofs                               &dofs,
                     std::vector<Block>                 &blocks)
       {
@@ -172,14 +172,19 @@ namespace Nacre
         };
         for (unsigned int v = 0; v < fe.reference_cell().n_vertices(); ++v)
           append(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
-        for (unsigned int l = 0; l < n_lines; ++l)
+        for (unsigned int l = 0; l < part.cell->n_lines(); ++l)
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
                  fe.n_dofs_per_line());
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
         // Those of each tip's functions
-        for (unsigned int first = fe.n_dofs_per_cell(); first < dofs.size();
-             first += TipFunctions::n_functions)
-          append(first, TipFunctions::n_functions);
+        if (part.enrichment() == nullptr)
+          return;
+        unsigned int first = fe.n_dofs_per_cell();
+        for (const auto &share : part.enrichment()->shares)
+          {
+            append(first, share.n_functions());
+            first += share.n_functions();
+          }
       }
 
       void
@@ -192,7 +197,7 @@ namespace Nacre
             discretization_.get_dof_indices(part, dofs);
             for_each_master(dofs,
                             [&](const Dof dof) { masters.push_back(dof); });
-            append_blocks(fe, part.cell->n_lines(), dofs, blocks_);
+            append_blocks(fe, part, dofs, blocks_);
           }
         sort_blocks();
 
@@ -246,7 +251,7 @@ namespace Nacre
             is_mine_.push_back(part.cell->is_locally_owned());
             blocks.clear();
             discretization_.get_dof_indices(part, dofs);
-            append_blocks(fe, part.cell->n_lines(), dofs, blocks);
+            append_blocks(fe, part, dofs, blocks);
             for (const auto &block : blocks)
               cell_blocks_.entries.push_back(block_of(block.start));
             for_each_master(dofs, [&](const Dof dof) {

@@ -336,8 +336,7 @@ namespace Nacre
       Utilities::MPI::max(mine.ends_inside ? 1 : 0, communicator) == 1;
     const Point<3> begin = begin_of_last_line(discretization, tip);
     const auto     place = discretization.nearest(
-      ends_inside && !discretization.has_tip_functions() ? begin :
-                                                           tip.position);
+      ends_inside && !discretization.opens_tip(tip) ? begin : tip.position);
     const auto normal = normal_at(discretization, place);
     const auto region =
       Utilities::MPI::max(place.is_mine ? place.part.cell->material_id() : 0u,

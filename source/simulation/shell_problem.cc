@@ -281,10 +281,17 @@ namespace Nacre
     AssertThrow(problem.model.cuts.tips == CutTips::closed ||
                   (problem.path.is_linear() && linear_kinematics &&
                    options.edge_form == EdgeForm::rotation_jump),
-                ExcMessage("Cuts/Tips: 'branch functions' are those of "
+                ExcMessage("Cuts/Tips: '" + name_of(problem.model.cuts.tips) +
+                           "' is for "
                            "'Analysis/Type = linear', 'Kinematics = linear' "
                            "and 'Edge form = rotation jump'; choose "
                            "'closed'."));
+    AssertThrow((problem.model.cuts.tips != CutTips::harmonic &&
+                 problem.model.cuts.tips != CutTips::harmonic_all_components) ||
+                  problem.model.element.type != ElementType::triangle,
+                ExcMessage("Cuts/Tips: '" + name_of(problem.model.cuts.tips) +
+                           "' is for quadrilaterals; choose 'closed' or "
+                           "'branch functions' for triangles."));
     AssertThrow((!problem.path.is_linear() &&
                  !seeks_modes(problem.path.type)) ||
                   !problem.model.foundation.is_nonlinear(),
