@@ -153,19 +153,41 @@ namespace Nacre
               use(entry.first);
       }
 
+      /**
+       * Whether nodes of the line have other copies in one of its cells than in
+       * others, so that its dofs aren't those of one block everywhere.
+       */
+      bool
+      is_split(const CellPart &part, const unsigned int line) const
+      {
+        const auto &split = discretization_.split_nodes();
+        if (split.is_empty())
+          return false;
+        const auto &fe = part.cell->get_fe();
+        Dofs        dofs(fe.n_dofs_per_cell());
+        part.cell->get_dof_indices(dofs);
+        for (unsigned int k = 0; k < fe.n_dofs_per_line(); ++k)
+          if (split.has(dofs[fe.get_first_line_index() +
+                             line * fe.n_dofs_per_line() + k]))
+            return true;
+        return false;
+      }
+
       /** Append the blocks of the cell's dofs: consecutive numbers. */
-      static void
+      void
       append_blocks(const FiniteElement<dim, spacedim> &fe,
                     const CellPart                     &part,
                     Dofs                               &dofs,
-                    std::vector<Block>                 &blocks)
+                    std::vector<Block>                 &blocks) const
       {
         const auto append = [&](const unsigned int first,
-                                const unsigned int length) {
+                                const unsigned int length,
+                                const bool         is_split = false) {
           // Edges may be numbered backwards.
           std::sort(dofs.begin() + first, dofs.begin() + first + length);
           for (unsigned int k = 0; k < length; ++k)
-            if (k > 0 && dofs[first + k] == dofs[first + k - 1] + 1)
+            if (k > 0 && !is_split &&
+                dofs[first + k] == dofs[first + k - 1] + 1)
               ++blocks.back().length;
             else
               blocks.push_back({dofs[first + k], 1});
@@ -174,7 +196,8 @@ namespace Nacre
           append(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
         for (unsigned int l = 0; l < part.cell->n_lines(); ++l)
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
-                 fe.n_dofs_per_line());
+                 fe.n_dofs_per_line(),
+                 is_split(part, l));
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
         // Those of each tip's functions
         if (part.enrichment() == nullptr)

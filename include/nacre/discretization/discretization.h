@@ -181,6 +181,12 @@ namespace Nacre
       return tip_patches_ != nullptr || tip_openings_ != nullptr;
     }
 
+    const SplitNodes &
+    split_nodes() const
+    {
+      return numbering_->split_nodes();
+    }
+
     /** Whether the discrete crack ends at @p tip, not at its cell's edge. */
     bool
     opens_tip(const CutTrace::Tip &tip) const

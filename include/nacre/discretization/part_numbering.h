@@ -40,6 +40,20 @@ namespace Nacre
     {
       nodes_.emplace(cell, face, neighbor_part, dof);
       faces_.emplace(cell, face);
+      dofs_.insert(dof);
+    }
+
+    bool
+    is_empty() const
+    {
+      return nodes_.empty();
+    }
+
+    /** Whether it is the first dof of such a node. */
+    bool
+    has(const types::global_dof_index dof) const
+    {
+      return dofs_.count(dof) > 0;
     }
 
     bool
@@ -74,6 +88,7 @@ namespace Nacre
       std::tuple<CellId, unsigned int, unsigned int, types::global_dof_index>>
                                               nodes_;
     std::set<std::pair<CellId, unsigned int>> faces_;
+    std::set<types::global_dof_index>         dofs_;
   };
 
   /**
