@@ -126,12 +126,14 @@ namespace Nacre
       return b * (b * b - (lambda + 1.) * (lambda + 1.) -
                   (1. - nu) * lambda * (lambda - 1.));
     };
-    const double second = on_lips(lambda - 1.);
-    const double B      = second == 0. ? 0. : -on_lips(lambda + 1.) / second;
+    const double first = on_lips(lambda + 1.), second = on_lips(lambda - 1.);
+    // One of the two may obey the condition alone: n = 6 for nu = 0.
+    const double A = second == 0. && first != 0. ? 0. : 1.;
+    const double B = second != 0. ? -first / second : 1. - A;
 
     PolarSeries w;
     for (const auto &[b, factor] :
-         {std::make_pair(lambda + 1., 1.), std::make_pair(lambda - 1., B)})
+         {std::make_pair(lambda + 1., A), std::make_pair(lambda - 1., B)})
       w.add(lambda + 1., b, symmetric ? factor : 0., symmetric ? 0. : factor);
     return w;
   }
