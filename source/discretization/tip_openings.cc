@@ -486,8 +486,8 @@ namespace Nacre
             "' at (" + Text::number(x[0]) + ", " + Text::number(x[1]) + ", " +
             Text::number(x[2]) +
             ") is closed at the edge of its cell: harmonic functions need a "
-            "straight cut that is alone there, a tenth of the cell and more "
-            "from its edges.");
+            "straight cut that is alone there, and ends a tenth of the cell "
+            "and more behind that edge.");
         }
     return result;
   }
