@@ -23,8 +23,8 @@ namespace Nacre
    *   u_h = sum_a N_a u_a + sum_k c_k psi_k,
    *   psi_k = chi (F_k - sum_a N_a F_k(X_a)).
    *
-   * or of the cell in which a cut ends, (C.4') there, with the function psi_i of
-   * the tip that is 1 on the left of the crack and 0 on its right,
+   * or of the cell in which a cut ends, (C.4') there, with the functions psi_i
+   * of the tip that are 1 on the left of the crack and 0 on its right,
    *
    *   psi_ai = N_a psi_i e_i  or  N_a (1 - psi_i) e_i.
    *

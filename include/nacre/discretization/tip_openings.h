@@ -27,10 +27,10 @@ namespace Nacre
    *   u_h = sum_a N_a u_a + sum_{a on the edge} sum_i N_a q_ai e_i d_ai,
    *   d_ai = e_i . (u_a^other - u_a),
    *
-   * u_a the copy of the side on which the node lies, and q_ai the function psi_i
-   * of the other side, psi_i on the left and 1 - psi_i on the right. psi_i is
-   * 1 and 0 on the edges beside the crack, hence u_h is continuous. The d_ai are
-   * dofs of L that are constrained to what they are.
+   * u_a the copy of the side on which the node lies, and q_ai the function
+   * psi_i of the other side, psi_i on the left and 1 - psi_i on the right. The
+   * psi_i are 1 and 0 on the edges beside the crack, hence u_h is continuous.
+   * The d_ai are dofs of L that are constrained to what they are.
    *
    * A tip on an edge needs no function. Where the functions can't be fitted to
    * their conditions, or where no edge is free of other cuts, the crack closes

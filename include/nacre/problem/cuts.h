@@ -70,7 +70,8 @@ namespace Nacre
     CutTips tips          = CutTips::closed;
     /**
      * Poisson's ratio at a tip, on which tips' functions depend. It throws if
-     * the section has none and they are branch functions. Axes e_1, e_2: tangent, orthogonal, of length 1.
+     * the section has none and they are branch functions. Axes e_1, e_2:
+     * tangent, orthogonal, of length 1.
      */
     std::function<double(const SectionPoint &,
                          const Tensor<1, spacedim> &,
