@@ -113,6 +113,18 @@ namespace Nacre
         cut_lines_,
         [this](const CellPart &part) { return node_positions(part); },
         parts_);
+    if ((cuts.tips == CutTips::harmonic ||
+         cuts.tips == CutTips::harmonic_all_components) &&
+        !tips_.empty())
+      tip_openings_ = std::make_unique<TipOpenings>(
+        dof_handler_,
+        *scalar_fe_,
+        face_nodes_,
+        node_dofs_,
+        cuts,
+        tips_,
+        [this](const CellPart &part) { return node_positions(part); },
+        parts_);
     number_dofs();
   }
 
@@ -182,14 +194,15 @@ namespace Nacre
   void
   Discretization::number_dofs(const bool extends_parts)
   {
-    numbering_ =
-      std::make_unique<PartNumbering>(dof_handler_,
-                                      face_nodes_,
-                                      node_dofs_,
-                                      parts_,
-                                      tip_patches_ != nullptr ?
-                                        tip_patches_->n_owned_functions() :
-                                        0);
+    numbering_ = std::make_unique<PartNumbering>(
+      dof_handler_,
+      face_nodes_,
+      node_dofs_,
+      parts_,
+      tip_patches_ != nullptr  ? tip_patches_->n_owned_functions() :
+      tip_openings_ != nullptr ? tip_openings_->n_owned_functions() :
+                                 0,
+      tip_openings_ != nullptr ? tip_openings_->split_nodes() : SplitNodes());
     if (parts_.is_empty())
       node_constraints_ = make_hanging_node_constraints(dof_handler_);
     else
@@ -219,6 +232,11 @@ namespace Nacre
         tip_patches_->complete(numbering_->ends_of_ranks(), parts_);
         numbering_->add_relevant_dofs(tip_patches_->dofs());
       }
+    if (tip_openings_ != nullptr)
+      {
+        tip_openings_->complete(numbering_->ends_of_ranks(), parts_);
+        numbering_->add_relevant_dofs(tip_openings_->dofs());
+      }
     // No hanging edge has a node of a cut cell.
     const auto hanging = make_hanging_node_constraints(dof_handler_);
     std::vector<HangingLine> hanging_lines;
@@ -234,10 +252,14 @@ namespace Nacre
     // A ghost's node may follow nodes beyond the ghosts.
     IndexSet lines = locally_relevant_dofs();
     if (extension)
-      lines.add_indices(
-        with_masters_of_hanging_nodes(extension->masters_of_all_ranks(),
-                                      hanging_lines,
-                                      communicator()));
+      {
+        IndexSet masters = extension->masters_of_all_ranks();
+        if (tip_openings_ != nullptr)
+          masters.add_indices(tip_openings_->masters());
+        lines.add_indices(with_masters_of_hanging_nodes(masters,
+                                                        hanging_lines,
+                                                        communicator()));
+      }
     node_constraints_.reinit(lines);
     for (const auto &[dof, entries] : hanging_lines)
       {
@@ -246,6 +268,8 @@ namespace Nacre
       }
     if (extension)
       extension->add_to(node_constraints_, tip_patches_.get());
+    if (tip_openings_ != nullptr)
+      tip_openings_->add_to(node_constraints_);
     if (Utilities::MPI::n_mpi_processes(communicator()) > 1)
       node_constraints_.make_consistent_in_parallel(locally_owned_dofs(),
                                                     lines,

@@ -12,6 +12,41 @@
 
 namespace Nacre
 {
+  namespace
+  {
+    /** The functions N_a psi_i e_i, N_a (1 - psi_i) e_i of open nodes. */
+    void
+    append_jumps(const PartEnrichment::Share         &share,
+                 const std::vector<FieldDerivatives> &fields,
+                 const ShapeTable                    &shapes,
+                 const unsigned int                   q,
+                 std::vector<FieldDerivatives>       &result)
+    {
+      for (const auto &[a, opens_left] : share.open_nodes)
+        for (unsigned int i = 0; i < fields.size(); ++i)
+          {
+            FieldDerivatives f;
+            if (!opens_left)
+              f.value = share.functions->tip().axes[i];
+            f.add(opens_left ? 1. : -1., fields[i]);
+            const double     N   = shapes.value(q, a);
+            const auto      &dN  = shapes.gradient(q, a);
+            const auto      &d2N = shapes.hessian(q, a);
+            FieldDerivatives psi;
+            psi.value = N * f.value;
+            for (unsigned int k = 0; k < 2; ++k)
+              {
+                psi.first[k] = N * f.first[k] + dN[k] * f.value;
+                psi.second[k] =
+                  N * f.second[k] + 2. * dN[k] * f.first[k] + d2N[k] * f.value;
+              }
+            psi.second[2] = N * f.second[2] + dN[0] * f.first[1] +
+                            dN[1] * f.first[0] + d2N[2] * f.value;
+            result.push_back(psi);
+          }
+    }
+  } // namespace
+
   void
   PartEnrichment::evaluate(const ShapeTable              &shapes,
                            const GeometryTable::Values   &geometry,
@@ -19,14 +54,19 @@ namespace Nacre
                            const Point<dim>              &unit,
                            std::vector<FieldDerivatives> &result) const
   {
-    const FieldDerivatives surface{geometry.position(q),
+    const FieldDerivatives        surface{geometry.position(q),
                                    {{geometry.tangent(q, 0),
-                                     geometry.tangent(q, 1)}},
+                                            geometry.tangent(q, 1)}},
                                    geometry.second_derivatives(q)};
-    std::array<FieldDerivatives, TipFunctions::n_functions> fields;
+    std::vector<FieldDerivatives> fields;
     for (const Share &share : shares)
       {
         share.functions->evaluate(surface, share.side, fields);
+        if (!share.open_nodes.empty())
+          {
+            append_jumps(share, fields, shapes, q, result);
+            continue;
+          }
         const auto  &c = share.cutoff;
         const double chi =
           c[0] + c[1] * unit[0] + c[2] * unit[1] + c[3] * unit[0] * unit[1];
@@ -191,7 +231,9 @@ namespace Nacre
                                     [](const auto &s) { return s.is_near; });
     if (share == shares.end())
       return part_quadrature(part.outline(), degree + 3);
-    const QGauss<dim>       rule(2 * degree + 4);
+    // Harmonic functions have terms up to r^12.5, biharmonic ones up to r^11.
+    const QGauss<dim>       rule(share->open_nodes.empty() ? 2 * degree + 4 :
+                                                       2 * degree + 12);
     std::vector<Point<dim>> points;
     std::vector<double>     weights;
     for (const auto &piece : convex_pieces(part))

@@ -61,6 +61,7 @@ namespace Nacre
     , smallest_part_(smallest_part)
     , nodes_of_cell_(nodes_of_cell)
     , n_dofs_(numbering.n_dofs())
+    , split_nodes_(numbering.split_nodes())
     , parts_(parts)
   {
     find_roots();
@@ -84,8 +85,11 @@ namespace Nacre
             root.nodes    = nodes_of_cell_(CellPart(cell, &part));
           }
     const auto communicator = dof_handler_.get_communicator();
-    while (Utilities::MPI::max(ask_neighbors() ? 1 : 0, communicator) == 1)
-      exchange_roots();
+    // Not from the cell of a tip that is open, unless there is no other.
+    for (const bool crosses_split_nodes : {false, true})
+      while (Utilities::MPI::max(ask_neighbors(crosses_split_nodes) ? 1 : 0,
+                                 communicator) == 1)
+        exchange_roots();
     std::string message;
     for (const auto &cell : parts_.touched_cells())
       if (cell->is_locally_owned() && message.empty())
@@ -107,7 +111,7 @@ namespace Nacre
   }
 
   bool
-  PartExtension::ask_neighbors()
+  PartExtension::ask_neighbors(const bool crosses_split_nodes)
   {
     std::vector<std::pair<unsigned int, Root>> found;
     for (const auto &cell : parts_.touched_cells())
@@ -121,8 +125,12 @@ namespace Nacre
             for (const auto &piece : parts_.pieces_between(cell, face))
               {
                 const auto &[mine, other] = piece.sides;
-                const Root  &root         = roots_[other.part.index()];
-                const auto   k            = mine.part.data->number;
+                if (!crosses_split_nodes &&
+                    (split_nodes_.is_at(mine.part.cell, mine.face) ||
+                     split_nodes_.is_at(other.part.cell, other.face)))
+                  continue;
+                const Root  &root = roots_[other.part.index()];
+                const auto   k    = mine.part.data->number;
                 const double length =
                   std::abs(mine.interval[1] - mine.interval[0]);
                 if (roots_[mine.part.index()].is_known || !root.is_known)

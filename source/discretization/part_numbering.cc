@@ -61,7 +61,8 @@ namespace Nacre
     const std::vector<std::vector<unsigned int>> &face_nodes,
     const std::vector<unsigned int>              &node_dofs,
     CellParts                                    &parts,
-    const unsigned int                            n_functions)
+    const unsigned int                            n_functions,
+    const SplitNodes                             &split_nodes)
     : dof_handler_(dof_handler)
     , face_nodes_(face_nodes)
     , node_dofs_(node_dofs)
@@ -69,6 +70,7 @@ namespace Nacre
     , old_starts_(starts_of_ranks(dof_handler.n_locally_owned_dofs(),
                                   dof_handler.get_communicator()))
     , new_starts_(old_starts_)
+    , split_nodes_(split_nodes)
     , are_removed_(parts.are_removed())
   {
     if (parts.is_empty())
@@ -168,7 +170,8 @@ namespace Nacre
               const auto there          = nodes.place_of(other.part.cell);
               for (const unsigned int a : face_nodes_[mine.face])
                 for (const unsigned int b : face_nodes_[other.face])
-                  if (nodes.first_dof(k, a) == nodes.first_dof(there, b))
+                  if (nodes.first_dof(k, a) == nodes.first_dof(there, b) &&
+                      !split_nodes_.contains(piece, nodes.first_dof(k, a)))
                     nodes.joined.join(
                       nodes.number(k, mine.part.data->number, a),
                       nodes.number(there, other.part.data->number, b));
@@ -187,6 +190,11 @@ namespace Nacre
           if (!parts.has_pieces(nodes.cells[k], face))
             for (const unsigned int a : face_nodes_[face])
               {
+                if (split_nodes_.contains(nodes.cells[k]->id(),
+                                          face,
+                                          0,
+                                          nodes.first_dof(k, a)))
+                  continue;
                 const unsigned int edge   = nodes.cells[k]->face_index(face);
                 const unsigned int number = nodes.number(k, 0, a);
                 nodes.joined.join(

@@ -20,23 +20,24 @@ namespace Nacre
       second[v] += factor * other.second[v];
   }
 
-  TipFunctions::TipFunctions(const Tip   &tip,
-                             const double poissons_ratio,
-                             const double length)
-    : tip_(tip)
-    , length_(length)
+  TipFunctions
+  TipFunctions::branch_functions(const Tip   &tip,
+                                 const double poissons_ratio,
+                                 const double length)
   {
     // 2 mu = 1: the membrane fields are of order 1 at the distance 1.
-    const ElasticPlate plate{1. + poissons_ratio, poissons_ratio, 1.};
+    const ElasticPlate         plate{1. + poissons_ratio, poissons_ratio, 1.};
+    std::vector<WilliamsField> fields;
     for (const unsigned int n : {1, 3})
       for (const bool symmetric : {true, false})
         {
-          functions_.push_back({membrane_williams_field(n, symmetric, plate),
-                                std::pow(length, -0.5 * n)});
-          functions_.push_back({bending_williams_field(n, symmetric, plate),
-                                std::pow(length, -0.5 * n - 1.)});
+          fields.push_back(
+            membrane_williams_field(n, symmetric, plate).stretched(length));
+          fields.push_back(
+            bending_williams_field(n, symmetric, plate).stretched(length));
         }
-    AssertDimension(functions_.size(), n_functions);
+    AssertDimension(fields.size(), n_branch_functions);
+    return TipFunctions(tip, fields, length);
   }
 
   std::pair<double, double>
@@ -57,22 +58,20 @@ namespace Nacre
     return {std::hypot(x, y), theta};
   }
 
-  std::array<Tensor<1, 3>, TipFunctions::n_functions>
+  std::vector<Tensor<1, 3>>
   TipFunctions::values(const Point<3> &position, const int side) const
   {
     const auto [r, theta] = polar_coordinates(position, side);
-    std::array<Tensor<1, 3>, n_functions> result;
-    for (unsigned int k = 0; k < n_functions; ++k)
-      result[k] =
-        in_space(functions_[k].factor, functions_[k].field.value(r, theta));
+    std::vector<Tensor<1, 3>> result;
+    for (const auto &field : fields_)
+      result.push_back(in_space(field.value(r, theta)));
     return result;
   }
 
   void
-  TipFunctions::evaluate(
-    const FieldDerivatives                    &surface,
-    const int                                  side,
-    std::array<FieldDerivatives, n_functions> &result) const
+  TipFunctions::evaluate(const FieldDerivatives        &surface,
+                         const int                      side,
+                         std::vector<FieldDerivatives> &result) const
   {
     constexpr std::array<std::array<unsigned int, 2>, 3> pairs = {
       {{{0, 0}}, {{1, 1}}, {{0, 1}}}};
@@ -89,25 +88,24 @@ namespace Nacre
         for (unsigned int v = 0; v < 3; ++v)
           d2[i][v] = tip_.axes[i] * surface.second[v];
       }
-    for (unsigned int k = 0; k < n_functions; ++k)
+    result.resize(size());
+    for (unsigned int k = 0; k < size(); ++k)
       {
-        const auto &[field, factor] = functions_[k];
-        const auto gradient         = field.gradient(r, theta);
-        const auto hessian          = field.hessian(r, theta);
-        result[k].value = in_space(factor, field.value(exact_r, theta));
+        const auto &field    = fields_[k];
+        const auto  gradient = field.gradient(r, theta);
+        const auto  hessian  = field.hessian(r, theta);
+        result[k].value      = in_space(field.value(exact_r, theta));
         for (unsigned int a = 0; a < 2; ++a)
           result[k].first[a] =
-            in_space(factor, d1[0][a] * gradient[0] + d1[1][a] * gradient[1]);
+            in_space(d1[0][a] * gradient[0] + d1[1][a] * gradient[1]);
         for (unsigned int v = 0; v < 3; ++v)
           {
-            const auto [a, b] = pairs[v];
-            result[k].second[v] =
-              in_space(factor,
-                       d1[0][a] * d1[0][b] * hessian[0] +
-                         d1[1][a] * d1[1][b] * hessian[1] +
-                         (d1[0][a] * d1[1][b] + d1[1][a] * d1[0][b]) *
-                           hessian[2] +
-                         d2[0][v] * gradient[0] + d2[1][v] * gradient[1]);
+            const auto [a, b]   = pairs[v];
+            result[k].second[v] = in_space(
+              d1[0][a] * d1[0][b] * hessian[0] +
+              d1[1][a] * d1[1][b] * hessian[1] +
+              (d1[0][a] * d1[1][b] + d1[1][a] * d1[0][b]) * hessian[2] +
+              d2[0][v] * gradient[0] + d2[1][v] * gradient[1]);
           }
       }
   }

@@ -4,7 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 #include <nacre/discretization/part_extension.h>
-#include <nacre/discretization/plane_geometry.h>
+#include <nacre/discretization/tip_frame.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,34 +14,6 @@ namespace Nacre
 {
   namespace
   {
-    /** phi0 and its derivatives of the nodes @p nodes (length). */
-    FieldDerivatives
-    surface_at(const FiniteElement<dim, spacedim> &fe,
-               const std::vector<Point<spacedim>> &nodes,
-               const Point<dim>                   &unit)
-    {
-      FieldDerivatives x;
-      for (unsigned int a = 0; a < nodes.size(); ++a)
-        {
-          x.value += fe.shape_value(a, unit) * nodes[a];
-          const auto dN = fe.shape_grad(a, unit);
-          for (unsigned int alpha = 0; alpha < dim; ++alpha)
-            x.first[alpha] += dN[alpha] * nodes[a];
-        }
-      return x;
-    }
-
-    /** The tip's axes, from the direction ahead and the surface. */
-    std::array<Tensor<1, 3>, 3>
-    axes_of(const CutTrace::Tip &tip, const FieldDerivatives &surface)
-    {
-      Tensor<1, 3> e_3 = cross_product_3d(surface.first[0], surface.first[1]);
-      e_3 /= e_3.norm();
-      Tensor<1, 3> e_1 = tip.direction - (tip.direction * e_3) * e_3;
-      e_1 /= e_1.norm();
-      return {{e_1, cross_product_3d(e_3, e_1), e_3}};
-    }
-
     /** The set of all ranks' numbers. */
     std::set<types::global_dof_index>
     joined_sets(const std::set<types::global_dof_index> &mine,
@@ -77,11 +49,11 @@ namespace Nacre
     check(cuts);
     for (unsigned int t = 0; t < tips.size(); ++t)
       {
-        Patch &patch = patches_[t];
-        patch.functions =
-          std::make_shared<const TipFunctions>(patch.frame,
-                                               patch.poissons_ratio,
-                                               patch.size);
+        Patch &patch    = patches_[t];
+        patch.functions = std::make_shared<const TipFunctions>(
+          TipFunctions::branch_functions(patch.frame,
+                                         patch.poissons_ratio,
+                                         patch.size));
         make_path(lines, t);
       }
     check_bends(cuts);
@@ -106,7 +78,7 @@ namespace Nacre
             const auto surface = surface_at(scalar_fe_, nodes, tips_[t].unit);
             patch.owner        = me;
             patch.size         = cell->diameter();
-            patch.frame.axes   = axes_of(tips_[t], surface);
+            patch.frame        = tip_frame(tips_[t], surface);
             patch.poissons_ratio =
               cuts.poissons_ratio(SectionPoint(tips_[t].position,
                                                cell->material_id()),
@@ -287,32 +259,12 @@ namespace Nacre
       }
   }
 
-  bool
-  TipPatches::holds_tip(const unsigned int t, const CellPart &part) const
-  {
-    if (part.cell->id() != tips_[t].cell)
-      return false;
-    const Point<dim> &x       = tips_[t].unit;
-    const auto        polygon = part.outline();
-    if (!polygon.contains(x, 0.))
-      return false;
-    // A tip on an edge doesn't lie inside.
-    for (unsigned int i = 0; i < polygon.n_vertices(); ++i)
-      if (PlaneGeometry::nearest_on_segment(polygon.vertex(i),
-                                            polygon.vertex(
-                                              (i + 1) % polygon.n_vertices()),
-                                            x)
-            .distance(x) < 1e-8)
-        return false;
-    return true;
-  }
-
   int
   TipPatches::side_of(const unsigned int t,
                       const CellPart    &part,
                       const bool         is_cut) const
   {
-    if (holds_tip(t, part))
+    if (holds_tip(tips_[t], part))
       return 0;
     const Patch     &patch = patches_[t];
     const Point<dim> unit =
@@ -346,7 +298,7 @@ namespace Nacre
   {
     const auto me =
       Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
-    return TipFunctions::n_functions *
+    return TipFunctions::n_branch_functions *
            std::count_if(patches_.begin(),
                          patches_.end(),
                          [&](const Patch &patch) { return patch.owner == me; });
@@ -394,7 +346,7 @@ namespace Nacre
     const auto            nodes = positions_(part);
     PartEnrichment::Share share;
     share.functions   = patch.functions;
-    share.holds_tip   = holds_tip(t, part);
+    share.holds_tip   = holds_tip(tips_[t], part);
     share.side        = side_of(t, part, is_cut);
     share.tip         = part.cell->id() == tips_[t].cell ?
                           tips_[t].unit :
@@ -413,16 +365,9 @@ namespace Nacre
         double(chi[3]) - double(chi[1]) - double(chi[2]) + double(chi[0]);
 
     if (share.holds_tip)
-      {
-        const auto   x   = surface_at(scalar_fe_, nodes, share.tip);
-        const auto  &a   = x.first;
-        const double a11 = a[0] * a[0], a22 = a[1] * a[1], a12 = a[0] * a[1];
-        const double b1   = -(a[0] * patch.frame.axes[0]);
-        const double b2   = -(a[1] * patch.frame.axes[0]);
-        share.backward[0] = a22 * b1 - a12 * b2;
-        share.backward[1] = a11 * b2 - a12 * b1;
-        share.backward /= share.backward.norm();
-      }
+      share.backward =
+        backward_from_tip(patch.frame,
+                          surface_at(scalar_fe_, nodes, share.tip));
     for (unsigned int a = 0; a < nodes.size(); ++a)
       share.at_nodes.push_back(patch.functions->values(
         nodes[a],
@@ -436,7 +381,7 @@ namespace Nacre
     find_sides_of_nodes(parts);
     std::vector<unsigned int> n_of_rank(ends.size(), 0);
     for (const Patch &patch : patches_)
-      n_of_rank[patch.owner] += TipFunctions::n_functions;
+      n_of_rank[patch.owner] += TipFunctions::n_branch_functions;
     std::vector<Dof> next(ends);
     for (unsigned int rank = 0; rank < ends.size(); ++rank)
       next[rank] -= n_of_rank[rank];
@@ -444,7 +389,7 @@ namespace Nacre
     for (Patch &patch : patches_)
       {
         patch.first_dof = next[patch.owner];
-        next[patch.owner] += TipFunctions::n_functions;
+        next[patch.owner] += TipFunctions::n_branch_functions;
         dofs_.add_range(patch.first_dof, next[patch.owner]);
       }
     dofs_.compress();
@@ -460,7 +405,8 @@ namespace Nacre
               {
                 enrichment->shares.push_back(
                   make_share(t, part, parts.is_cut(cell)));
-                for (unsigned int k = 0; k < TipFunctions::n_functions; ++k)
+                for (unsigned int k = 0; k < TipFunctions::n_branch_functions;
+                     ++k)
                   dofs.push_back(patches_[t].first_dof + k);
               }
           if (dofs.empty())

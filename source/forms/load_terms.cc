@@ -165,9 +165,10 @@ namespace Nacre
         std::vector<types::global_dof_index> dofs;
         discretization_.get_dof_indices(place.part, dofs);
         AssertThrow(place.part.enrichment() == nullptr,
-                    ExcMessage("Loads: a point force lies within two cells of "
-                               "the tip of a cut with branch functions; refine "
-                               "the mesh, or choose 'Cuts/Tips = closed'."));
+                    ExcMessage(
+                      "Loads: a point force lies within two cells of "
+                      "the tip of a cut that has functions there; "
+                      "refine the mesh, or choose 'Cuts/Tips = closed'."));
         dealii::Vector<double> local(dofs.size());
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)

@@ -153,33 +153,61 @@ namespace Nacre
               use(entry.first);
       }
 
+      /**
+       * Whether nodes of the line have other copies in one of its cells than in
+       * others, so that its dofs aren't those of one block everywhere.
+       */
+      bool
+      is_split(const CellPart &part, const unsigned int line) const
+      {
+        const auto &split = discretization_.split_nodes();
+        if (split.is_empty())
+          return false;
+        const auto &fe = part.cell->get_fe();
+        Dofs        dofs(fe.n_dofs_per_cell());
+        part.cell->get_dof_indices(dofs);
+        for (unsigned int k = 0; k < fe.n_dofs_per_line(); ++k)
+          if (split.has(dofs[fe.get_first_line_index() +
+                             line * fe.n_dofs_per_line() + k]))
+            return true;
+        return false;
+      }
+
       /** Append the blocks of the cell's dofs: consecutive numbers. */
-      static void
+      void
       append_blocks(const FiniteElement<dim, spacedim> &fe,
-                    const unsigned int                  n_lines,
+                    const CellPart                     &part,
                     Dofs                               &dofs,
-                    std::vector<Block>                 &blocks)
+                    std::vector<Block>                 &blocks) const
       {
         const auto append = [&](const unsigned int first,
-                                const unsigned int length) {
+                                const unsigned int length,
+                                const bool         is_split = false) {
           // Edges may be numbered backwards.
           std::sort(dofs.begin() + first, dofs.begin() + first + length);
           for (unsigned int k = 0; k < length; ++k)
-            if (k > 0 && dofs[first + k] == dofs[first + k - 1] + 1)
+            if (k > 0 && !is_split &&
+                dofs[first + k] == dofs[first + k - 1] + 1)
               ++blocks.back().length;
             else
               blocks.push_back({dofs[first + k], 1});
         };
         for (unsigned int v = 0; v < fe.reference_cell().n_vertices(); ++v)
           append(v * fe.n_dofs_per_vertex(), fe.n_dofs_per_vertex());
-        for (unsigned int l = 0; l < n_lines; ++l)
+        for (unsigned int l = 0; l < part.cell->n_lines(); ++l)
           append(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
-                 fe.n_dofs_per_line());
+                 fe.n_dofs_per_line(),
+                 is_split(part, l));
         append(fe.get_first_quad_index(), fe.n_dofs_per_quad());
         // Those of each tip's functions
-        for (unsigned int first = fe.n_dofs_per_cell(); first < dofs.size();
-             first += TipFunctions::n_functions)
-          append(first, TipFunctions::n_functions);
+        if (part.enrichment() == nullptr)
+          return;
+        unsigned int first = fe.n_dofs_per_cell();
+        for (const auto &share : part.enrichment()->shares)
+          {
+            append(first, share.n_functions());
+            first += share.n_functions();
+          }
       }
 
       void
@@ -192,7 +220,7 @@ namespace Nacre
             discretization_.get_dof_indices(part, dofs);
             for_each_master(dofs,
                             [&](const Dof dof) { masters.push_back(dof); });
-            append_blocks(fe, part.cell->n_lines(), dofs, blocks_);
+            append_blocks(fe, part, dofs, blocks_);
           }
         sort_blocks();
 
@@ -246,7 +274,7 @@ namespace Nacre
             is_mine_.push_back(part.cell->is_locally_owned());
             blocks.clear();
             discretization_.get_dof_indices(part, dofs);
-            append_blocks(fe, part.cell->n_lines(), dofs, blocks);
+            append_blocks(fe, part, dofs, blocks);
             for (const auto &block : blocks)
               cell_blocks_.entries.push_back(block_of(block.start));
             for_each_master(dofs, [&](const Dof dof) {

@@ -43,6 +43,18 @@ namespace Nacre
     return result;
   }
 
+  PolarSeries
+  PolarSeries::stretched(const double length) const
+  {
+    PolarSeries result;
+    for (const auto &[a, b, c, s] : terms_)
+      {
+        const double factor = std::pow(length, -a);
+        result.add(a, b, factor * c, factor * s);
+      }
+    return result;
+  }
+
   WilliamsField::WilliamsField(const std::array<PolarSeries, 3> &displacement)
     : values_(displacement)
   {
@@ -54,6 +66,15 @@ namespace Nacre
         hessians_[1][c]  = gradients_[1][c].along_y();
         hessians_[2][c]  = gradients_[0][c].along_y();
       }
+  }
+
+  WilliamsField
+  WilliamsField::stretched(const double length) const
+  {
+    Components values;
+    for (unsigned int c = 0; c < 3; ++c)
+      values[c] = values_[c].stretched(length);
+    return WilliamsField(values);
   }
 
   namespace
@@ -88,33 +109,34 @@ namespace Nacre
         }
       return u;
     }
-
-    /** w of bending_williams_field(). */
-    PolarSeries
-    bending_series(const unsigned int  n,
-                   const bool          symmetric,
-                   const ElasticPlate &plate)
-    {
-      const double nu     = plate.poissons_ratio;
-      const double lambda = 0.5 * n;
-      // cos(b pi) vanishes for odd n, sin(b pi) for even n.
-      const bool moment_remains = symmetric == (n % 2 == 0);
-      const auto on_lips        = [&](const double b) {
-        if (moment_remains)
-          return -b * b + (lambda + 1.) * (1. + nu * lambda);
-        return b * (b * b - (lambda + 1.) * (lambda + 1.) -
-                    (1. - nu) * lambda * (lambda - 1.));
-      };
-      const double second = on_lips(lambda - 1.);
-      const double B      = second == 0. ? 0. : -on_lips(lambda + 1.) / second;
-
-      PolarSeries w;
-      for (const auto &[b, factor] :
-           {std::make_pair(lambda + 1., 1.), std::make_pair(lambda - 1., B)})
-        w.add(lambda + 1., b, symmetric ? factor : 0., symmetric ? 0. : factor);
-      return w;
-    }
   } // namespace
+
+  PolarSeries
+  bending_williams_series(const unsigned int n,
+                          const bool         symmetric,
+                          const double       poissons_ratio)
+  {
+    const double nu     = poissons_ratio;
+    const double lambda = 0.5 * n;
+    // cos(b pi) vanishes for odd n, sin(b pi) for even n.
+    const bool moment_remains = symmetric == (n % 2 == 0);
+    const auto on_lips        = [&](const double b) {
+      if (moment_remains)
+        return -b * b + (lambda + 1.) * (1. + nu * lambda);
+      return b * (b * b - (lambda + 1.) * (lambda + 1.) -
+                  (1. - nu) * lambda * (lambda - 1.));
+    };
+    const double first = on_lips(lambda + 1.), second = on_lips(lambda - 1.);
+    // One of the two may obey the condition alone: n = 6 for nu = 0.
+    const double A = second == 0. && first != 0. ? 0. : 1.;
+    const double B = second != 0. ? -first / second : 1. - A;
+
+    PolarSeries w;
+    for (const auto &[b, factor] :
+         {std::make_pair(lambda + 1., A), std::make_pair(lambda - 1., B)})
+      w.add(lambda + 1., b, symmetric ? factor : 0., symmetric ? 0. : factor);
+    return w;
+  }
 
   WilliamsField
   membrane_williams_field(const unsigned int  n,
@@ -131,7 +153,8 @@ namespace Nacre
                          const ElasticPlate &plate)
   {
     Assert(n > 0, ExcMessage("A rigid motion is no Williams field"));
-    return WilliamsField({{{}, {}, bending_series(n, symmetric, plate)}});
+    return WilliamsField(
+      {{{}, {}, bending_williams_series(n, symmetric, plate.poissons_ratio)}});
   }
 
   WilliamsField
@@ -144,13 +167,14 @@ namespace Nacre
         membrane_series(1, mode == CrackMode::opening, plate, 1. / root));
 
     // Moments follow from the curvature -w,ab.
-    const PolarSeries w = bending_series(1, mode == CrackMode::bending, plate);
-    const auto        second = WilliamsField({{{}, {}, w}}).hessian(1., 0.);
-    const double      D      = plate.bending_stiffness();
-    const double      factor =
+    const PolarSeries w =
+      bending_williams_series(1, mode == CrackMode::bending, nu);
+    const auto   second = WilliamsField({{{}, {}, w}}).hessian(1., 0.);
+    const double D      = plate.bending_stiffness();
+    const double factor =
       mode == CrackMode::bending ?
-             -1. / (root * D * (second[1][2] + nu * second[0][2])) :
-             -(1. + nu) / ((3. + nu) * root * D * (1. - nu) * second[2][2]);
+        -1. / (root * D * (second[1][2] + nu * second[0][2])) :
+        -(1. + nu) / ((3. + nu) * root * D * (1. - nu) * second[2][2]);
     return WilliamsField({{{}, {}, w.scaled(factor)}});
   }
 

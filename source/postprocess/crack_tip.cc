@@ -354,8 +354,7 @@ namespace Nacre
       if (!of_rank.empty())
         begin = of_rank.front();
     const auto place = discretization.nearest(
-      ends_inside && !discretization.has_tip_functions() ? begin :
-                                                           tip.position);
+      ends_inside && !discretization.opens_tip(tip) ? begin : tip.position);
     const auto normal = normal_at(discretization, place);
     const auto region =
       Utilities::MPI::max(place.is_mine ? place.part.cell->material_id() : 0u,

@@ -307,9 +307,11 @@ namespace Nacre
   const Selection<CutTips> &
   selection(CutTips)
   {
-    static const Selection<CutTips> table = {{CutTips::closed, "closed"},
-                                             {CutTips::branch_functions,
-                                              "branch functions"}};
+    static const Selection<CutTips> table = {
+      {CutTips::closed, "closed"},
+      {CutTips::harmonic, "harmonic"},
+      {CutTips::harmonic_all_components, "harmonic, all components"},
+      {CutTips::branch_functions, "branch functions"}};
     return table;
   }
 
@@ -351,7 +353,13 @@ namespace Nacre
                   tips_,
                   "What displacements can do at the tip of a cut that ends "
                   "inside a cell. 'closed': the crack closes at the edge by "
-                  "which it enters that cell. 'branch functions': the singular "
+                  "which it enters that cell. 'harmonic': functions of the "
+                  "cell open it up to its end, tangential displacements by a "
+                  "harmonic function, normal ones by a biharmonic one; "
+                  "'harmonic, all components': harmonic ones for all, whose "
+                  "bending energy is infinite but for the quadrature. Both are "
+                  "for Type = linear on quadrilaterals, with the direct "
+                  "solver. 'branch functions': the singular "
                   "fields of Williams around the tip's very place are added, "
                   "with coefficients of their own; for Kinematics = linear and "
                   "a homogeneous isotropic section, with the direct solver.",

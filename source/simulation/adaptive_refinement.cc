@@ -109,10 +109,11 @@ namespace Nacre
                 ExcMessage(section + "Cells at tips: there are no cuts "
                                      "(Cuts/Cuts); set it to 0."));
     AssertThrow(problem.model.cuts.tips == CutTips::closed,
-                ExcMessage(section +
-                           "Cycles: errors aren't estimated with 'Cuts/Tips = "
-                           "branch functions'; set it to 0, or choose "
-                           "'closed'."));
+                ExcMessage(
+                  section +
+                  "Cycles: errors aren't estimated with 'Cuts/Tips = " +
+                  name_of(problem.model.cuts.tips) +
+                  "'; set it to 0, or choose 'closed'."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage(section +
                            "Cycles: cuts that grow (Growth/Tips) keep their "

@@ -30,6 +30,9 @@ namespace Nacre
       cuts.poissons_ratio =
         [&](const auto &x, const auto &e_1, const auto &e_2) {
           const auto plate = elastic_plate(model.section, x, e_1, e_2);
+          // Any other is a shape function, too.
+          if (!plate && model.cuts.tips != CutTips::branch_functions)
+            return 0.3;
           AssertThrow(plate.has_value(),
                       ExcMessage("Cuts/Tips: branch functions are those of a "
                                  "homogeneous isotropic section; choose "
@@ -85,6 +88,9 @@ namespace Nacre
     if (!problem.path.has_inertia())
       check_supports(conditions_, problem.model.cuts);
     warn_of_penalty(log);
+    if (const auto *const openings = discretization_.tip_openings())
+      for (const auto &remark : openings->remarks(problem.model.cuts))
+        log.warning(remark);
     solver_ = make_solver(n_right_hand_sides, log);
     report_memory(discretization_,
                   solver_->type() == SolverType::direct ?
@@ -117,7 +123,7 @@ namespace Nacre
       !discretization_.has_tip_functions();
     if (chosen.type == SolverType::multigrid &&
         discretization_.has_tip_functions())
-      log.warning("Linear solver/Solver: multigrid doesn't know the branch "
+      log.warning("Linear solver/Solver: multigrid doesn't know the "
                   "functions of Cuts/Tips; the direct solver is taken.");
     else if (chosen.type == SolverType::multigrid && !can_coarsen)
       log.warning(

@@ -220,23 +220,31 @@ namespace Nacre
     if (problem.model.cuts.tips == CutTips::closed)
       return;
     const KinematicsOptions &options = problem.model.kinematics;
+    const std::string tips = "'" + name_of(problem.model.cuts.tips) + "'";
     AssertThrow(options.model == KinematicsModel::linear &&
                   options.edge_form == EdgeForm::rotation_jump,
-                ExcMessage("Cuts/Tips: 'branch functions' are those of "
-                           "'Kinematics = linear' and 'Edge form = rotation "
-                           "jump'; choose 'closed'."));
+                ExcMessage("Cuts/Tips: " + tips +
+                           " is for 'Kinematics = linear' and 'Edge form = "
+                           "rotation jump'; choose 'closed'."));
+    AssertThrow(problem.model.cuts.tips == CutTips::branch_functions ||
+                  problem.model.element.type != ElementType::triangle,
+                ExcMessage("Cuts/Tips: " + tips +
+                           " is for quadrilaterals; choose 'closed' or "
+                           "'branch functions' for triangles."));
     const PrestressKind prestress = problem.modes.prestress;
     AssertThrow(!seeks_modes(problem.path.type) ||
                   (prestress != PrestressKind::forces_and_moments &&
                    prestress != PrestressKind::tangent),
                 ExcMessage("Analysis/Prestress: '" + name_of(prestress) +
                            "' takes finite rotations, which know no 'Cuts/Tips "
-                           "= branch functions'; choose 'linear', or tips that "
-                           "are 'closed'."));
+                           "= " +
+                           name_of(problem.model.cuts.tips) +
+                           "'; choose 'linear', or tips that are 'closed'."));
     AssertThrow(!problem.growth.is_on() || !problem.path.is_dynamic(),
-                ExcMessage("Growth/Tips: in motions 'Cuts/Tips = branch "
-                           "functions' don't grow, since a tip that moves "
-                           "would leave mass behind; choose 'closed'."));
+                ExcMessage("Growth/Tips: in motions cuts with 'Cuts/Tips = " +
+                           name_of(problem.model.cuts.tips) +
+                           "' don't grow, since a tip that moves would leave "
+                           "mass behind; choose 'closed'."));
   }
 
   void

@@ -32,9 +32,10 @@ namespace
   test_condition(const std::string           &name,
                  const Element               &element,
                  const std::vector<CutCurve> &cuts,
-                 const unsigned int           n_modes)
+                 const unsigned int           n_modes,
+                 const CutTips                tips = CutTips::closed)
   {
-    const CutShell shell(square, element, cuts);
+    const CutShell shell(square, element, cuts, {}, {}, tips);
     const auto     values = scaled_eigenvalues(shell);
     const auto     where  = name + ", " + label(element) + ": ";
     const double   last   = values[values.size() - 1];
@@ -65,6 +66,19 @@ namespace
                        element,
                        {line("tip", {{-.1, .37}, {.6, .45}})},
                        6);
+        if (element.type != ElementType::triangle)
+          {
+            test_condition("harmonic tip",
+                           element,
+                           {line("tip", {{-.1, .37}, {.6, .45}})},
+                           6,
+                           CutTips::harmonic);
+            test_condition("harmonic tip behind a vertex",
+                           element,
+                           {line("tip", {{-.1, -.1}, {.6, .6}})},
+                           6,
+                           CutTips::harmonic);
+          }
         for (const double eps : {1e-1, 1e-3, 1e-5})
           if (element.type == ElementType::lagrange)
             {

@@ -44,8 +44,10 @@ namespace CutShells
              const Element               &element,
              const std::vector<CutCurve> &curves,
              const KinematicsOptions     &options    = {},
-             const std::vector<Point<3>> &refined_at = {})
+             const std::vector<Point<3>> &refined_at = {},
+             const CutTips                tips       = CutTips::closed)
       : parameters(text)
+      , tips(tips)
     {
       const auto &model = parameters.model;
       make_discretization(
@@ -75,7 +77,11 @@ namespace CutShells
                         const std::vector<CutCurve> &curves)
     {
       Cuts cuts;
-      cuts.curves = curves;
+      cuts.curves         = curves;
+      cuts.tips           = tips;
+      cuts.poissons_ratio = [](const auto &, const auto &, const auto &) {
+        return 0.3;
+      };
       discretization =
         std::make_unique<Discretization>(std::move(mesh),
                                          parameters.model.midsurface,
@@ -153,6 +159,7 @@ namespace CutShells
     }
 
     TextModel                       parameters;
+    const CutTips                   tips;
     std::unique_ptr<Discretization> discretization;
     std::unique_ptr<Assembly>       assembly;
   };

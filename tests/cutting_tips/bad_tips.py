@@ -42,3 +42,10 @@ case("cycles", ["Adaptive refinement/Cycles", "branch functions"],
 case("turns", ["Cuts/Tips", "turns in the cell in which it ends"],
      {"Cuts/Cuts": "crack: uv (-1.1, 0.003) (0.4, 0.003) (0.44, 0.06)",
       "Quantities/Quantities": ""})
+case("harmonic_corotational",
+     ["Cuts/Tips", "'harmonic'", "'Kinematics = linear'"],
+     {"Cuts/Tips": "harmonic", "Discretization/Kinematics": "corotational",
+      "Analysis/Type": "static"}, ["--check"])
+case("harmonic_triangles", ["Cuts/Tips", "quadrilaterals"],
+     {"Cuts/Tips": "harmonic, all components", "Discretization/Element":
+      "triangle"}, ["--check"])

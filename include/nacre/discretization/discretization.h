@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/part_extension.h>
+#include <nacre/discretization/tip_openings.h>
 #include <nacre/problem/element.h>
 
 #include <deal.II/base/array_view.h>
@@ -177,7 +178,28 @@ namespace Nacre
     bool
     has_tip_functions() const
     {
-      return tip_patches_ != nullptr;
+      return tip_patches_ != nullptr || tip_openings_ != nullptr;
+    }
+
+    const SplitNodes &
+    split_nodes() const
+    {
+      return numbering_->split_nodes();
+    }
+
+    /** Whether the discrete crack ends at @p tip, not at its cell's edge. */
+    bool
+    opens_tip(const CutTrace::Tip &tip) const
+    {
+      return tip_patches_ != nullptr ||
+             (tip_openings_ != nullptr && tip_openings_->opens(tip));
+    }
+
+    /** Of tips that harmonic functions should open; null: none. */
+    const TipOpenings *
+    tip_openings() const
+    {
+      return tip_openings_.get();
     }
 
     /** The cuts in this rank's cells, each piece once (length). */
@@ -342,6 +364,7 @@ namespace Nacre
     std::vector<CutTrace::Line>    cut_lines_;
     std::vector<CutTrace::Tip>     tips_;
     std::unique_ptr<TipPatches>    tip_patches_;
+    std::unique_ptr<TipOpenings>   tip_openings_;
     std::unique_ptr<PartNumbering> numbering_;
     AffineConstraints<double>      node_constraints_;
     std::vector<CellPart>          owned_parts_;

@@ -23,6 +23,11 @@ namespace Nacre
    *   u_h = sum_a N_a u_a + sum_k c_k psi_k,
    *   psi_k = chi (F_k - sum_a N_a F_k(X_a)).
    *
+   * or of the cell in which a cut ends, (C.4') there, with the functions psi_i
+   * of the tip that are 1 on the left of the crack and 0 on its right,
+   *
+   *   psi_ai = N_a psi_i e_i  or  N_a (1 - psi_i) e_i.
+   *
    * The psi_k vanish at the nodes. Their scalar dofs c_k (length) belong to the
    * tip and are those of all its parts; they follow the nodes' dofs.
    */
@@ -37,7 +42,16 @@ namespace Nacre
       /** chi = chi_0 + chi_1 xi_1 + chi_2 xi_2 + chi_3 xi_1 xi_2. */
       std::array<double, 4> cutoff{};
       /** F_k(X_a) as [a][k]. */
-      std::vector<std::array<Tensor<1, 3>, TipFunctions::n_functions>> at_nodes;
+      std::vector<std::vector<Tensor<1, 3>>> at_nodes;
+      /** A node of the edge by which the crack enters the cell. */
+      struct OpenNode
+      {
+        unsigned int node;
+        /** Whether its copy elsewhere stands for the left of the crack. */
+        bool opens_left;
+      };
+      /** If there are any, these psi_ai are the functions. */
+      std::vector<OpenNode> open_nodes;
       /** Whether the cell is the tip's or shares a vertex with that. */
       bool is_near = false;
       /** Coordinates of the tip, beyond the cell in others than the tip's. */
@@ -45,6 +59,13 @@ namespace Nacre
       /** Backward along the crack; where the tip lies inside. */
       Tensor<1, dim> backward;
       bool           holds_tip = false;
+
+      unsigned int
+      n_functions() const
+      {
+        return open_nodes.empty() ? functions->size() :
+                                    spacedim * open_nodes.size();
+      }
     };
 
     std::vector<Share> shares;
@@ -52,7 +73,10 @@ namespace Nacre
     unsigned int
     n_functions() const
     {
-      return TipFunctions::n_functions * shares.size();
+      unsigned int n = 0;
+      for (const auto &share : shares)
+        n += share.n_functions();
+      return n;
     }
 
     /**

@@ -92,7 +92,7 @@ namespace Nacre
 
     /** One round of asking neighbours; returns whether anything changed. */
     bool
-    ask_neighbors();
+    ask_neighbors(const bool crosses_split_nodes);
 
     void
     exchange_roots();
@@ -116,6 +116,7 @@ namespace Nacre
     const std::function<std::vector<Point<spacedim>>(const CellPart &)>
                      &nodes_of_cell_;
     const Dof         n_dofs_;
+    const SplitNodes &split_nodes_;
     CellParts        &parts_;
     std::vector<Root> roots_;
     std::vector<Line> lines_;

@@ -9,6 +9,8 @@
 #include <deal.II/base/index_set.h>
 
 #include <map>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -20,6 +22,73 @@ namespace Nacre
     CellPart::Cell cell;
     unsigned int   part;
     unsigned int   node;
+  };
+
+  /** Nodes that two parts which share a piece don't share. */
+  class SplitNodes
+  {
+  public:
+    /**
+     * The node whose first dof of the DoFHandler is @p dof, of the whole cell
+     * @p cell and of the part number @p neighbor_part behind its @p face.
+     */
+    void
+    insert(const CellId                 &cell,
+           const unsigned int            face,
+           const unsigned int            neighbor_part,
+           const types::global_dof_index dof)
+    {
+      nodes_.emplace(cell, face, neighbor_part, dof);
+      faces_.emplace(cell, face);
+      dofs_.insert(dof);
+    }
+
+    bool
+    is_empty() const
+    {
+      return nodes_.empty();
+    }
+
+    /** Whether it is the first dof of such a node. */
+    bool
+    has(const types::global_dof_index dof) const
+    {
+      return dofs_.count(dof) > 0;
+    }
+
+    bool
+    contains(const CellId                 &cell,
+             const unsigned int            face,
+             const unsigned int            neighbor_part,
+             const types::global_dof_index dof) const
+    {
+      return !nodes_.empty() &&
+             nodes_.count({cell, face, neighbor_part, dof}) > 0;
+    }
+
+    /** The same of a piece, whichever of its sides is the whole cell's. */
+    bool
+    contains(const EdgePiece &piece, const types::global_dof_index dof) const
+    {
+      const auto &[a, b] = piece.sides;
+      return !nodes_.empty() &&
+             (contains(a.part.cell->id(), a.face, b.part.data->number, dof) ||
+              contains(b.part.cell->id(), b.face, a.part.data->number, dof));
+    }
+
+    /** Whether the cell has such nodes on the face. */
+    bool
+    is_at(const CellPart::Cell &cell, const unsigned int face) const
+    {
+      return !faces_.empty() && faces_.count({cell->id(), face}) > 0;
+    }
+
+  private:
+    std::set<
+      std::tuple<CellId, unsigned int, unsigned int, types::global_dof_index>>
+                                              nodes_;
+    std::set<std::pair<CellId, unsigned int>> faces_;
+    std::set<types::global_dof_index>         dofs_;
   };
 
   /**
@@ -44,12 +113,20 @@ namespace Nacre
      * PartData::dofs; collective.
      * @param node_dofs Discretization::node_dofs()
      * @param n_functions further dofs of this rank, behind those of its nodes
+     * @param split_nodes they have copies of their own
      */
     PartNumbering(const DoFHandler<dim, spacedim>              &dof_handler,
                   const std::vector<std::vector<unsigned int>> &face_nodes,
                   const std::vector<unsigned int>              &node_dofs,
                   CellParts                                    &parts,
-                  const unsigned int n_functions = 0);
+                  const unsigned int                            n_functions = 0,
+                  const SplitNodes &split_nodes = SplitNodes());
+
+    const SplitNodes &
+    split_nodes() const
+    {
+      return split_nodes_;
+    }
 
     /** Where the ranges of dofs of the ranks end. */
     std::vector<types::global_dof_index>
@@ -153,6 +230,7 @@ namespace Nacre
     IndexSet         locally_owned_dofs_;
     IndexSet         locally_relevant_dofs_;
     Copies           copies_;
+    SplitNodes       split_nodes_;
     /** Where parts are removed: the numbers of dofs of uncut cells. */
     bool                         are_removed_ = false;
     std::unordered_map<Dof, Dof> numbers_;

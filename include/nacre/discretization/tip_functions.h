@@ -27,17 +27,12 @@ namespace Nacre
   };
 
   /**
-   * The singular displacements F_k of a crack's tip: Williams' membrane and
-   * bending fields of the orders n = 1 and 3, symmetric and antisymmetric, as
-   * functions of x = (X - X_tip) . e_1 and y = (X - X_tip) . e_2, whose
-   * components are those along the tip's axes. They are scaled such that they
-   * are of order 1 at the distance @p length from the tip.
+   * Displacements F_k around a crack's tip, functions of x = (X - X_tip) . e_1
+   * and y = (X - X_tip) . e_2, whose components are those along the tip's axes.
    */
   class TipFunctions
   {
   public:
-    static constexpr unsigned int n_functions = 8;
-
     /** At a tip in the plane or tangent to a surface. */
     struct Tip
     {
@@ -47,9 +42,33 @@ namespace Nacre
       std::array<Tensor<1, 3>, 3> axes;
     };
 
-    TipFunctions(const Tip   &tip,
-                 const double poissons_ratio,
-                 const double length);
+    /** Those of branch_functions(). */
+    static constexpr unsigned int n_branch_functions = 8;
+
+    /**
+     * The singular ones: Williams' membrane and bending fields of the orders
+     * n = 1 and 3, symmetric and antisymmetric. They are scaled such that they
+     * are of order 1 at the distance @p length from the tip.
+     */
+    static TipFunctions
+    branch_functions(const Tip   &tip,
+                     const double poissons_ratio,
+                     const double length);
+
+    /** @param length size of the cell */
+    TipFunctions(const Tip                        &tip,
+                 const std::vector<WilliamsField> &fields,
+                 const double                      length)
+      : tip_(tip)
+      , length_(length)
+      , fields_(fields)
+    {}
+
+    unsigned int
+    size() const
+    {
+      return fields_.size();
+    }
 
     const Tip &
     tip() const
@@ -62,7 +81,7 @@ namespace Nacre
      * crack's left lip, negative on that of its right one, where theta goes on
      * beyond half a turn; 0: theta as it is.
      */
-    std::array<Tensor<1, 3>, n_functions>
+    std::vector<Tensor<1, 3>>
     values(const Point<3> &position, const int side) const;
 
     /**
@@ -70,31 +89,24 @@ namespace Nacre
      * @param surface position, and its derivatives (length)
      */
     void
-    evaluate(const FieldDerivatives                    &surface,
-             const int                                  side,
-             std::array<FieldDerivatives, n_functions> &result) const;
+    evaluate(const FieldDerivatives        &surface,
+             const int                      side,
+             std::vector<FieldDerivatives> &result) const;
 
   private:
-    struct Function
-    {
-      WilliamsField field;
-      double        factor;
-    };
-
     std::pair<double, double>
     polar_coordinates(const Tensor<1, 3> &position, const int side) const;
 
     Tensor<1, 3>
-    in_space(const double factor, const Tensor<1, 3> &components) const
+    in_space(const Tensor<1, 3> &components) const
     {
-      return factor *
-             (components[0] * tip_.axes[0] + components[1] * tip_.axes[1] +
-              components[2] * tip_.axes[2]);
+      return components[0] * tip_.axes[0] + components[1] * tip_.axes[1] +
+             components[2] * tip_.axes[2];
     }
 
-    const Tip             tip_;
-    const double          length_;
-    std::vector<Function> functions_;
+    Tip                        tip_;
+    double                     length_;
+    std::vector<WilliamsField> fields_;
   };
 } // namespace Nacre
 

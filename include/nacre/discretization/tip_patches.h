@@ -143,9 +143,6 @@ namespace Nacre
             const CellPart    &part,
             const bool         is_cut) const;
 
-    bool
-    holds_tip(const unsigned int t, const CellPart &part) const;
-
     void
     find_sides_of_nodes(const CellParts &parts);
 

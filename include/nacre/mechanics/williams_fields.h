@@ -41,6 +41,16 @@ namespace Nacre
     PolarSeries
     scaled(const double factor) const;
 
+    /** The same with r over @p length in place of r. */
+    PolarSeries
+    stretched(const double length) const;
+
+    void
+    add(const PolarSeries &other)
+    {
+      terms_.insert(terms_.end(), other.terms_.begin(), other.terms_.end());
+    }
+
     /** The value; @p theta may be any angle, beyond half a turn too. */
     template <typename Number>
     Number
@@ -113,6 +123,10 @@ namespace Nacre
   public:
     /** Components u, v, w. */
     explicit WilliamsField(const std::array<PolarSeries, 3> &displacement);
+
+    /** The same with r over @p length in place of r. */
+    WilliamsField
+    stretched(const double length) const;
 
     template <typename Number>
     Tensor<1, 3, Number>
@@ -199,6 +213,12 @@ namespace Nacre
   bending_williams_field(const unsigned int  n,
                          const bool          symmetric,
                          const ElasticPlate &plate);
+
+  /** Its w. */
+  PolarSeries
+  bending_williams_series(const unsigned int n,
+                          const bool         symmetric,
+                          const double       poissons_ratio);
 
   /**
    * The field n = 1 of a mode whose intensity is 1: ahead of the tip

@@ -44,6 +44,13 @@ namespace Nacre
   {
     /** Nothing: the crack closes at the edge by which it enters the cell. */
     closed,
+    /**
+     * Functions that open the cut inside of the cell, harmonic ones for
+     * tangential displacements, biharmonic ones for normal ones.
+     */
+    harmonic,
+    /** Harmonic functions for all: Kaufmann et al. (2009). */
+    harmonic_all_components,
     /** Williams' fields with coefficients of the tip's own. */
     branch_functions
   };
@@ -62,8 +69,9 @@ namespace Nacre
     double  smallest_part = 0.25;
     CutTips tips          = CutTips::closed;
     /**
-     * Poisson's ratio at a tip, on which branch functions depend. It throws if
-     * the section has none. Axes e_1, e_2: tangent, orthogonal, of length 1.
+     * Poisson's ratio at a tip, on which tips' functions depend. It throws if
+     * the section has none and they are branch functions. Axes e_1, e_2:
+     * tangent, orthogonal, of length 1.
      */
     std::function<double(const SectionPoint &,
                          const Tensor<1, spacedim> &,

@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/base/mpi_errors.h>
+#include <nacre/base/text.h>
+#include <nacre/discretization/plane_geometry.h>
+#include <nacre/discretization/tip_frame.h>
+#include <nacre/discretization/tip_openings.h>
+#include <nacre/mechanics/tip_jump.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+
+namespace Nacre
+{
+  namespace
+  {
+    /** How far the cut may leave the tip's line, in units of its length. */
+    constexpr double straight_cut = 0.02;
+
+    /** Errors of the values 0 and 1 up to which functions are taken. */
+    constexpr double largest_residual = 0.05;
+
+    /** The point of a quadrilateral's face at the coordinate @p s. */
+    Point<dim>
+    point_on_face(const unsigned int face, const double s)
+    {
+      Point<dim> x;
+      x[face / 2]     = face % 2;
+      x[1 - face / 2] = s;
+      return x;
+    }
+  } // namespace
+
+  TipOpenings::TipOpenings(
+    const DoFHandler<dim, spacedim>              &dof_handler,
+    const FiniteElement<dim, spacedim>           &scalar_fe,
+    const std::vector<std::vector<unsigned int>> &face_nodes,
+    const std::vector<unsigned int>              &node_dofs,
+    const Cuts                                   &cuts,
+    const std::vector<CutTrace::Tip>             &tips,
+    const Positions                              &positions,
+    const CellParts                              &parts)
+    : dof_handler_(dof_handler)
+    , scalar_fe_(scalar_fe)
+    , face_nodes_(face_nodes)
+    , node_dofs_(node_dofs)
+    , tips_(tips)
+    , positions_(positions)
+    , parts_(parts)
+    , openings_(tips.size())
+  {
+    AssertThrow(scalar_fe.reference_cell() == ReferenceCells::Quadrilateral,
+                ExcMessage("Cuts/Tips: harmonic functions are those of "
+                           "quadrilaterals; choose 'closed' or 'branch "
+                           "functions' for triangles."));
+    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        for (unsigned int t = 0; t < tips_.size(); ++t)
+          if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
+            {
+              Opening &opening  = openings_[t];
+              opening.owner     = cell->subdomain_id();
+              opening.cell      = cell;
+              opening.is_inside = parts_.n_parts(cell) != 1 ||
+                                  holds_tip(tips_[t], parts_.part(cell));
+              opening.is_open = opening.is_inside &&
+                                find_entry(t, cell, opening.entry) &&
+                                fit(t, cuts, cell);
+            }
+    });
+    share();
+    // The edges of ghosts are those of this rank's cells, too.
+    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+      for (const auto &cell : dof_handler_.active_cell_iterators())
+        for (unsigned int t = 0; t < tips_.size(); ++t)
+          if (cell->is_ghost() && openings_[t].is_open &&
+              cell->id() == tips_[t].cell)
+            fit(t, cuts, cell);
+    });
+  }
+
+  bool
+  TipOpenings::find_entry(const unsigned int t,
+                          const Cell        &cell,
+                          Entry             &entry) const
+  {
+    // Other cuts in the cell, and other tips
+    if (parts_.n_parts(cell) != 1 || parts_.is_cut(cell))
+      return false;
+    for (unsigned int s = 0; s < tips_.size(); ++s)
+      if (s != t && tips_[s].cell == tips_[t].cell)
+        return false;
+    if (!find_edge(t, cell, entry) && !find_vertex(t, cell, entry))
+      return false;
+    const auto nodes = positions_(parts_.part(cell));
+    const auto x     = surface_at(scalar_fe_, nodes, tips_[t].unit);
+    const auto back  = backward_from_tip(tip_frame(tips_[t], x), x);
+    const auto d     = entry.place - tips_[t].unit;
+    return d * back > 0. && std::abs(d[0] * back[1] - d[1] * back[0]) <
+                              straight_cut * std::max(d.norm(), 0.1);
+  }
+
+  bool
+  TipOpenings::find_edge(const unsigned int t,
+                         const Cell        &cell,
+                         Entry             &entry) const
+  {
+    std::vector<unsigned int> faces;
+    for (const auto face : cell->face_indices())
+      if (!cell->at_boundary(face) && parts_.has_pieces(cell, face) &&
+          parts_.pieces_between(cell, face).size() != 1)
+        faces.push_back(face);
+    if (faces.size() != 1)
+      return false;
+    entry.face  = faces[0];
+    auto pieces = parts_.pieces_between(cell, entry.face);
+    if (pieces.size() != 2)
+      return false;
+    std::sort(pieces.begin(), pieces.end(), [](const auto &a, const auto &b) {
+      return a.sides[0].interval[0] < b.sides[0].interval[0];
+    });
+    const double crossing = pieces[1].sides[0].interval[0];
+    if (pieces[0].sides[1].part.index() == pieces[1].sides[1].part.index() ||
+        std::abs(pieces[0].sides[0].interval[1] - crossing) >
+          PlaneGeometry::snap_distance)
+      return false;
+    entry.place = point_on_face(entry.face, crossing);
+    for (const unsigned int a : face_nodes_[entry.face])
+      {
+        const auto  &x     = scalar_fe_.unit_support_point(a);
+        const bool   here  = x[1 - entry.face / 2] < crossing;
+        const auto  &other = pieces[here ? 1 : 0].sides;
+        const double s = 0.5 * (other[0].interval[0] + other[0].interval[1]);
+        entry.nodes.push_back(
+          {a, is_left(t, entry.place, point_on_face(entry.face, s))});
+        entry.faces.push_back(entry.face);
+        entry.parts.push_back(other[1].part.data->number);
+      }
+    return true;
+  }
+
+  bool
+  TipOpenings::find_vertex(const unsigned int t,
+                           const Cell        &cell,
+                           Entry             &entry) const
+  {
+    for (const auto face : cell->face_indices())
+      if (!cell->at_boundary(face) && parts_.has_pieces(cell, face) &&
+          parts_.pieces_between(cell, face).size() != 1)
+        return false;
+    const auto nodes = positions_(parts_.part(cell));
+    const auto x     = surface_at(scalar_fe_, nodes, tips_[t].unit);
+    const auto back  = backward_from_tip(tip_frame(tips_[t], x), x);
+    double     best  = -1.;
+    for (unsigned int v = 0; v < 4; ++v)
+      {
+        const Point<dim> vertex(v % 2, v / 2);
+        const auto       d = vertex - tips_[t].unit;
+        if (d * back / d.norm() < best)
+          continue;
+        best        = d * back / d.norm();
+        entry       = Entry();
+        entry.place = vertex;
+        // The first nodes of a cell are those of its vertices.
+        for (const unsigned int face : {v % 2, 2 + v / 2})
+          if (!is_left(t, vertex, point_on_face(face, 0.5)) &&
+              !cell->at_boundary(face))
+            {
+              entry.nodes = {{v, false}};
+              entry.faces = {face};
+              entry.parts = {0};
+              if (parts_.has_pieces(cell, face))
+                entry.parts[0] = parts_.pieces_between(cell, face)[0]
+                                   .sides[1]
+                                   .part.data->number;
+            }
+      }
+    return !entry.nodes.empty();
+  }
+
+  bool
+  TipOpenings::is_left(const unsigned int t,
+                       const Point<dim>  &entry,
+                       const Point<dim>  &x) const
+  {
+    return PlaneGeometry::twice_area(entry, tips_[t].unit, x) > 0.;
+  }
+
+  std::vector<unsigned int>
+  TipOpenings::adjacent_faces(const Entry &entry)
+  {
+    if (entry.face == numbers::invalid_unsigned_int)
+      return {entry.place[0] > 0.5 ? 1u : 0u, entry.place[1] > 0.5 ? 3u : 2u};
+    const unsigned int first = 2 - 2 * (entry.face / 2);
+    return {first, first + 1};
+  }
+
+  bool
+  TipOpenings::fit(const unsigned int t, const Cuts &cuts, const Cell &cell)
+  {
+    const Entry &entry = openings_[t].entry;
+    const auto   nodes = positions_(parts_.part(cell));
+    const auto   frame =
+      tip_frame(tips_[t], surface_at(scalar_fe_, nodes, tips_[t].unit));
+    const auto center =
+      surface_at(scalar_fe_, nodes, Point<dim>(0.5, 0.5)).value -
+      Tensor<1, spacedim>(frame.position);
+    std::vector<JumpBoundaryPoint> boundary;
+    // Stresses that are constant do no work on the errors on edges: a moment
+    // for each node that has the function on a part of an edge.
+    JumpMoments     moments;
+    const QGauss<1> rule(40);
+    const auto      add = [&](const unsigned int          face,
+                         const double                begin,
+                         const double                end,
+                         const std::optional<double> value) {
+      const unsigned int first = boundary.size(), first_moment = moments.size();
+      if (value)
+        for (unsigned int k = 0; k < entry.nodes.size(); ++k)
+          if (const auto &on_face = face_nodes_[face];
+              std::find(on_face.begin(), on_face.end(), entry.nodes[k].node) !=
+              on_face.end())
+            moments.emplace_back(first, 0.);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const auto unit =
+            point_on_face(face, begin + rule.point(q)[0] * (end - begin));
+          const auto  x = surface_at(scalar_fe_, nodes, unit);
+          const auto  d = x.value - Tensor<1, spacedim>(frame.position);
+          const auto &tangent = x.first[1 - face / 2];
+          double      n_x     = tangent * frame.axes[1],
+                 n_y          = -(tangent * frame.axes[0]);
+          const double out    = n_x * ((d - center) * frame.axes[0]) +
+                             n_y * ((d - center) * frame.axes[1]);
+          const double scale = (out > 0. ? 1. : -1.) / std::hypot(n_x, n_y);
+          boundary.push_back({d * frame.axes[0],
+                              d * frame.axes[1],
+                              scale * n_x,
+                              scale * n_y,
+                              value});
+          unsigned int m = first_moment;
+          for (const auto &open : entry.nodes)
+            if (const auto &on_face = face_nodes_[face];
+                m < moments.size() &&
+                std::find(on_face.begin(), on_face.end(), open.node) !=
+                  on_face.end())
+              moments[m++].push_back(rule.weight(q) * tangent.norm() /
+                                     cell->diameter() *
+                                     scalar_fe_.shape_value(open.node, unit));
+        }
+    };
+    const auto side_value = [&](const Point<dim> &x) {
+      return is_left(t, entry.place, x) ? 1. : 0.;
+    };
+    const auto adjacent = adjacent_faces(entry);
+    for (unsigned int face = 0; face < 4; ++face)
+      if (face == entry.face)
+        {
+          const double s = entry.place[1 - face / 2];
+          add(face, 0., s, side_value(point_on_face(face, 0.)));
+          add(face, s, 1., side_value(point_on_face(face, 1.)));
+        }
+      else if (std::find(adjacent.begin(), adjacent.end(), face) ==
+               adjacent.end())
+        add(face, 0., 1., std::nullopt);
+      else if (entry.face != numbers::invalid_unsigned_int)
+        add(face, 0., 1., side_value(point_on_face(entry.face, face % 2)));
+      else
+        add(face, 0., 1., side_value(point_on_face(face, 0.5)));
+
+    for (auto &weights : moments)
+      weights.resize(boundary.size(), 0.);
+    const JumpFunction tangential = harmonic_jump(boundary, moments);
+    JumpFunction       normal     = tangential;
+    if (cuts.tips == CutTips::harmonic)
+      normal =
+        biharmonic_jump(boundary,
+                        cuts.poissons_ratio(SectionPoint(tips_[t].position,
+                                                         cell->material_id()),
+                                            frame.axes[0],
+                                            frame.axes[1]));
+    std::vector<WilliamsField> fields;
+    for (unsigned int i = 0; i < spacedim; ++i)
+      {
+        std::array<PolarSeries, 3> components;
+        components[i] = i == 2 ? normal.psi : tangential.psi;
+        fields.emplace_back(components);
+      }
+    openings_[t].functions =
+      std::make_shared<const TipFunctions>(frame, fields, cell->diameter());
+    return std::max(tangential.residual, normal.residual) < largest_residual;
+  }
+
+  void
+  TipOpenings::share()
+  {
+    const MPI_Comm   communicator = dof_handler_.get_communicator();
+    const auto       me = Utilities::MPI::this_mpi_process(communicator);
+    std::vector<Dof> dofs(node_dofs_.size());
+    std::vector<std::vector<double>> mine;
+    for (unsigned int t = 0; t < tips_.size(); ++t)
+      {
+        const Opening &opening = openings_[t];
+        if (opening.owner != me)
+          continue;
+        const Entry &entry = opening.entry;
+        mine.push_back({static_cast<double>(t),
+                        opening.is_inside ? 1. : 0.,
+                        opening.is_open ? 1. : 0.,
+                        static_cast<double>(entry.face),
+                        entry.place[0],
+                        entry.place[1]});
+        opening.cell->get_dof_indices(dofs);
+        for (unsigned int k = 0; k < entry.nodes.size(); ++k)
+          for (const double number :
+               {static_cast<double>(entry.nodes[k].node),
+                entry.nodes[k].opens_left ? 1. : 0.,
+                static_cast<double>(entry.faces[k]),
+                static_cast<double>(entry.parts[k]),
+                static_cast<double>(
+                  dofs[node_dofs_[spacedim * entry.nodes[k].node]])})
+            mine.back().push_back(number);
+      }
+    const auto all = Utilities::MPI::all_gather(communicator, mine);
+    for (unsigned int rank = 0; rank < all.size(); ++rank)
+      for (const auto &message : all[rank])
+        {
+          const auto t    = static_cast<unsigned int>(message[0]);
+          Opening   &here = openings_[t];
+          here.owner      = rank;
+          here.is_inside  = message[1] > 0.;
+          here.is_open    = message[2] > 0.;
+          Entry entry;
+          entry.face  = static_cast<unsigned int>(message[3]);
+          entry.place = Point<dim>(message[4], message[5]);
+          for (unsigned int k = 6; k < message.size(); k += 5)
+            {
+              entry.nodes.push_back(
+                {static_cast<unsigned int>(message[k]), message[k + 1] > 0.});
+              entry.faces.push_back(static_cast<unsigned int>(message[k + 2]));
+              entry.parts.push_back(static_cast<unsigned int>(message[k + 3]));
+              if (here.is_open)
+                split_nodes_.insert(tips_[t].cell,
+                                    entry.faces.back(),
+                                    entry.parts.back(),
+                                    static_cast<Dof>(message[k + 4]));
+            }
+          here.entry = entry;
+        }
+  }
+
+  unsigned int
+  TipOpenings::n_owned_functions() const
+  {
+    const auto me =
+      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+    unsigned int n = 0;
+    for (const Opening &opening : openings_)
+      if (opening.owner == me)
+        n += opening.n_functions();
+    return n;
+  }
+
+  void
+  TipOpenings::complete(const std::vector<Dof> &ends, CellParts &parts)
+  {
+    std::vector<Dof> next(ends);
+    for (const Opening &opening : openings_)
+      next[opening.owner] -= opening.n_functions();
+    dofs_.set_size(ends.back());
+    for (Opening &opening : openings_)
+      {
+        opening.first_dof = next[opening.owner];
+        next[opening.owner] += opening.n_functions();
+        dofs_.add_range(opening.first_dof, next[opening.owner]);
+      }
+    dofs_.compress();
+    for (const auto &cell : parts.touched_cells())
+      for (unsigned int t = 0; t < tips_.size(); ++t)
+        if (openings_[t].is_open && cell->id() == tips_[t].cell)
+          complete_cell(t, cell, parts);
+
+    std::vector<Dof> mine;
+    for (const Opening &opening : openings_)
+      for (const auto &pair : opening.copies)
+        for (const auto &node : pair)
+          mine.insert(mine.end(), node.begin(), node.end());
+    masters_.set_size(ends.back());
+    for (auto &of_rank :
+         Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+      {
+        std::sort(of_rank.begin(), of_rank.end());
+        masters_.add_indices(of_rank.begin(), of_rank.end());
+      }
+    masters_.compress();
+  }
+
+  void
+  TipOpenings::complete_cell(const unsigned int t,
+                             const Cell        &cell,
+                             CellParts         &parts)
+  {
+    Opening              &opening = openings_[t];
+    PartData             &data    = parts.parts(cell)[0];
+    PartEnrichment::Share share;
+    share.functions  = opening.functions;
+    share.is_near    = true;
+    share.holds_tip  = true;
+    share.tip        = tips_[t].unit;
+    share.open_nodes = opening.entry.nodes;
+    share.backward   = backward_from_tip(
+      opening.functions->tip(),
+      surface_at(scalar_fe_, positions_(CellPart(cell, &data)), share.tip));
+
+    std::vector<Dof> dofs(node_dofs_.size()), behind(node_dofs_.size());
+    cell->get_dof_indices(dofs);
+    opening.copies.clear();
+    const Entry &entry = opening.entry;
+    for (unsigned int k = 0; k < entry.nodes.size() && cell->is_locally_owned();
+         ++k)
+      {
+        const unsigned int a        = entry.nodes[k].node;
+        const Cell         neighbor = cell->neighbor(entry.faces[k]);
+        const PartData    &other    = parts.parts(neighbor)[entry.parts[k]];
+        neighbor->get_dof_indices(behind);
+        std::array<std::array<Dof, spacedim>, 2> copies;
+        for (unsigned int b = 0; b < node_dofs_.size() / spacedim; ++b)
+          if (behind[node_dofs_[spacedim * b]] ==
+              dofs[node_dofs_[spacedim * a]])
+            for (unsigned int c = 0; c < spacedim; ++c)
+              {
+                copies[0][c] = data.dofs[node_dofs_[spacedim * a + c]];
+                copies[1][c] = other.dofs[node_dofs_[spacedim * b + c]];
+              }
+        opening.copies.push_back(copies);
+      }
+    for (unsigned int k = 0; k < opening.n_functions(); ++k)
+      data.dofs.push_back(opening.first_dof + k);
+    auto enrichment = std::make_shared<PartEnrichment>();
+    enrichment->shares.push_back(share);
+    data.enrichment = enrichment;
+  }
+
+  void
+  TipOpenings::add_to(AffineConstraints<double> &constraints) const
+  {
+    for (const Opening &opening : openings_)
+      for (unsigned int k = 0; k < opening.copies.size(); ++k)
+        for (unsigned int i = 0; i < spacedim; ++i)
+          {
+            const auto  line          = opening.first_dof + spacedim * k + i;
+            const auto &e             = opening.functions->tip().axes[i];
+            const auto &[here, other] = opening.copies[k];
+            constraints.add_line(line);
+            for (unsigned int c = 0; c < spacedim; ++c)
+              if (here[c] != other[c] && e[c] != 0.)
+                {
+                  constraints.add_entry(line, other[c], e[c]);
+                  constraints.add_entry(line, here[c], -e[c]);
+                }
+          }
+  }
+
+  bool
+  TipOpenings::opens(const CutTrace::Tip &tip) const
+  {
+    for (unsigned int t = 0; t < tips_.size(); ++t)
+      if (tips_[t].cut == tip.cut && tips_[t].at_end == tip.at_end)
+        return openings_[t].is_open || !openings_[t].is_inside;
+    return false;
+  }
+
+  std::vector<std::string>
+  TipOpenings::remarks(const Cuts &cuts) const
+  {
+    std::vector<std::string> result;
+    for (unsigned int t = 0; t < tips_.size(); ++t)
+      if (!opens(tips_[t]))
+        {
+          const auto &x = tips_[t].position;
+          result.push_back(
+            "Cuts/Tips: the tip of '" + cuts.curves[tips_[t].cut].name +
+            "' at (" + Text::number(x[0]) + ", " + Text::number(x[1]) + ", " +
+            Text::number(x[2]) +
+            ") is closed at the edge of its cell: harmonic functions need a "
+            "straight cut that is alone there, and ends a tenth of the cell "
+            "and more behind that edge.");
+        }
+    return result;
+  }
+} // namespace Nacre
