@@ -48,60 +48,13 @@ namespace Nacre
         return {};
       if (t >= 1.)
         return {0., 0., 0.};
-      const double d  = -30. * t * t * (1. - t) * (1. - t) / width;
-      const double dd = -60. * t * (1. - t) * (1. - 2. * t) / (width * width);
-      return {1. - t * t * t * (10. - t * (15. - 6. * t)),
-              d / (2. * r),
-              (dd - d / r) / (4. * r * r)};
-    }
-
-    /** The surface and a displacement at the advance s of the tip. */
-    struct MovedPoint
-    {
-      MovedPoint(const SurfacePatch      &surface,
-                 const CrackExtension    &extension,
-                 const VectorDerivatives &u,
-                 const double             s);
-
-      SurfaceFrame<>    frame;
-      SectionPoint      point;
-      VectorDerivatives u;
-      /** Of the parameters' area. */
-      double determinant;
-    };
-
-    MovedPoint::MovedPoint(const SurfacePatch      &surface,
-                           const CrackExtension    &extension,
-                           const VectorDerivatives &u,
-                           const double             s)
-      : point(surface.position)
-      , u(u)
-    {
-      const auto       &x  = surface.derivatives;
-      const auto       &dq = extension.gradient;
-      VectorDerivatives moved(x);
-      for (unsigned int g = 0; g < 2; ++g)
-        {
-          const double shift = s * extension.q[g];
-          for (unsigned int a = 0; a < 2; ++a)
-            moved.first[a] += shift * x.second[pair_of(a, g)];
-          for (unsigned int v = 0; v < 3; ++v)
-            moved.second[v] += shift * third_derivative(surface, v, g);
-          static_cast<Point<3> &>(point) += shift * x.first[g];
-
-          for (unsigned int a = 0; a < 2; ++a)
-            this->u.first[a] -= s * dq[g][a] * u.first[g];
-          for (unsigned int v = 0; v < 3; ++v)
-            {
-              const auto [a, b] = pairs[v];
-              this->u.second[v] -= s * (dq[g][a] * u.second[pair_of(g, b)] +
-                                        dq[g][b] * u.second[pair_of(g, a)] +
-                                        extension.hessian[v][g] * u.first[g]);
-            }
-        }
-      frame = make_surface_frame(moved.first[0], moved.first[1], moved.second);
-      determinant =
-        (1. + s * dq[0][0]) * (1. + s * dq[1][1]) - s * s * dq[0][1] * dq[1][0];
+      const double tt = t * t, b = t * (1. - t);
+      const double eta =
+        1. -
+        t * tt * tt * (126. - t * (420. - t * (540. - t * (315. - 70. * t))));
+      const double d  = -630. * b * b * b * b / width;
+      const double dd = -2520. * b * b * b * (1. - 2. * t) / (width * width);
+      return {eta, d / (2. * r), (dd - d / r) / (4. * r * r)};
     }
 
     /** r and theta in the tangent plane of the tip. */
@@ -249,6 +202,51 @@ namespace Nacre
                        GreenStrain::membrane(frame, u.first);
   }
 
+  MovedPoint::MovedPoint(const SurfacePatch      &surface,
+                         const CrackExtension    &extension,
+                         const VectorDerivatives &u,
+                         const double             s)
+    : point(surface.position)
+    , u(u)
+  {
+    const auto       &x  = surface.derivatives;
+    const auto       &dq = extension.gradient;
+    VectorDerivatives moved(x);
+    for (unsigned int g = 0; g < 2; ++g)
+      {
+        const double shift = s * extension.q[g];
+        for (unsigned int a = 0; a < 2; ++a)
+          moved.first[a] += shift * x.second[pair_of(a, g)];
+        for (unsigned int v = 0; v < 3; ++v)
+          moved.second[v] += shift * third_derivative(surface, v, g);
+        static_cast<Point<3> &>(point) += shift * x.first[g];
+
+        for (unsigned int a = 0; a < 2; ++a)
+          this->u.first[a] -= s * dq[g][a] * u.first[g];
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            const auto [a, b] = pairs[v];
+            this->u.second[v] -= s * (dq[g][a] * u.second[pair_of(g, b)] +
+                                      dq[g][b] * u.second[pair_of(g, a)] +
+                                      extension.hessian[v][g] * u.first[g]);
+          }
+      }
+    frame = make_surface_frame(moved.first[0], moved.first[1], moved.second);
+    determinant =
+      (1. + s * dq[0][0]) * (1. + s * dq[1][1]) - s * s * dq[0][1] * dq[1][0];
+  }
+
+  SectionResponse
+  MovedPoint::response(const SectionAt &section,
+                       const bool       is_linear,
+                       const Voigt<>   &tying) const
+  {
+    return section.response(tying + membrane_strain(frame, u, is_linear),
+                            bending_strain(frame, u, is_linear),
+                            frame,
+                            point);
+  }
+
   double
   energy_change(const SectionAt         &section,
                 const bool               is_linear,
@@ -260,19 +258,9 @@ namespace Nacre
   {
     const auto energy = [&](const double s) {
       const MovedPoint at(surface, extension, u, s);
-      return section
-               .response(tying + membrane_strain(at.frame, at.u, is_linear),
-                         bending_strain(at.frame, at.u, is_linear),
-                         at.frame,
-                         at.point)
-               .energy *
-             at.frame.j0 * at.determinant;
+      return at.response(section, is_linear, tying).energy * at.frame.j0 *
+             at.determinant;
     };
-    // The error is of the fourth order in step/length, round-off of the order
-    // length/step.
-    const double step = 1e-3 * length;
-    return (8. * (energy(step) - energy(-step)) - energy(2. * step) +
-            energy(-2. * step)) /
-           (12. * step);
+    return change_with_advance(energy, length);
   }
 } // namespace Nacre

@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/discretization/shape_table.h>
 #include <nacre/postprocess/crack_points.h>
 
 namespace Nacre
 {
+  double
+  side_of_crack(const Discretization &discretization,
+                const CrackTip       &tip,
+                const CellPart       &part)
+  {
+    if (!discretization.cell_parts().is_cut(part.cell) &&
+        !part.cell->at_boundary())
+      return 0.;
+    GeometryTable::Values values;
+    GeometryTable(discretization.geometry_fe(), {part.outline().inner_point()})
+      .evaluate(discretization.geometry_nodes(part), values);
+    const Tensor<1, spacedim> d = values.position(0) - tip.position;
+    return d * tip.axes[0] < 0. ? d * tip.axes[1] : 0.;
+  }
+
   CrackPoints::CrackPoints(const ShellState      &state,
                            const Quadrature<dim> &points)
     : state_(state)

@@ -4,10 +4,11 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 #include <nacre/discretization/part_quadrature.h>
-#include <nacre/discretization/shell_edge_values.h>
+#include <nacre/forms/assembly.h>
 #include <nacre/forms/shell_actions.h>
 #include <nacre/mechanics/elastic_plate.h>
 #include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/crack_edges.h>
 #include <nacre/postprocess/crack_lips.h>
 #include <nacre/postprocess/crack_points.h>
 #include <nacre/postprocess/energy_release.h>
@@ -36,7 +37,7 @@ namespace Nacre
     unsigned int
     n_points(const Discretization &discretization)
     {
-      return discretization.degree() + 5;
+      return discretization.degree() + 6;
     }
 
     Quadrature<dim>
@@ -65,28 +66,6 @@ namespace Nacre
     {
       return "(" + Text::number(x[0]) + ", " + Text::number(x[1]) + ", " +
              Text::number(x[2]) + ")";
-    }
-
-    /**
-     * Positive for a part on the side of e_2 behind the tip, negative for one
-     * on the other, 0 for one that lies at no lip.
-     */
-    double
-    side_of(const Discretization &discretization,
-            const CrackTip       &tip,
-            const CellPart       &part,
-            const CrackPoints    &points)
-    {
-      const bool has_lip = discretization.cell_parts().is_cut(part.cell) ||
-                           part.cell->at_boundary();
-      double side = 0.;
-      for (unsigned int q = 0; has_lip && q < points.size(); ++q)
-        {
-          const Tensor<1, 3> d = points.surface(q).position - tip.position;
-          if (d * tip.axes[0] < 0.)
-            side += points.weight(q) * (d * tip.axes[1]);
-        }
-      return side;
     }
 
     VectorDerivatives &
@@ -240,39 +219,53 @@ namespace Nacre
   }
 
   void
-  EnergyRelease::check_inside() const
+  EnergyRelease::for_each_edge(
+    const std::function<void(const ShellEdgeValues &)> &function) const
   {
-    const auto     &tip_region = tip_.position.region();
     ShellEdgeValues edge(shell_.discretization);
     for_each_part([&](const CellPart &part) {
       if (part.data != nullptr && part.data->number != 0)
         return; // all pieces of the cell's edges at once
-      for (const unsigned int face : part.cell->face_indices())
-        edge.for_pieces_to_neighbor(part.cell, face, [&](const auto &edge) {
-          for (unsigned int q = 0; q < edge.n_points(); ++q)
-            {
-              const Point<3> x = edge.point(q);
-              if (x.distance(tip_.position) > plateau_.outer)
-                continue;
-              const double cosine =
-                edge.sigma(1, q) * (edge.frame(0, q).t0 * edge.frame(1, q).t0);
-              AssertThrow(cosine > crack_crease,
-                          ExcMessage(where_ + "lies a crease, at " +
-                                     coordinates_of(x) +
-                                     "; choose smaller radii."));
-              AssertThrow(edge.point(q, 0).region() == tip_region &&
-                            edge.point(q, 1).region() == tip_region,
-                          ExcMessage(where_ + "lies another region, at " +
-                                     coordinates_of(x) +
-                                     "; choose smaller radii."));
-              AssertThrow(edge.frame(0, q).t0 * tip_.axes[2] > crack_bend,
-                          ExcMessage(where_ +
-                                     "the surface turns by more than "
-                                     "60 degrees, at " +
-                                     coordinates_of(x) +
-                                     "; choose smaller radii."));
-            }
-        });
+      const auto &cell = part.cell;
+      for (const unsigned int face : cell->face_indices())
+        {
+          if (cell->at_boundary(face) ||
+              (!cell->neighbor_is_coarser(face) &&
+               cell->neighbor(face)->id() < cell->id()))
+            continue;
+          edge.for_pieces_to_neighbor(cell, face, function);
+        }
+    });
+  }
+
+  void
+  EnergyRelease::check_inside() const
+  {
+    const auto &tip_region = tip_.position.region();
+    for_each_edge([&](const ShellEdgeValues &edge) {
+      for (unsigned int q = 0; q < edge.n_points(); ++q)
+        {
+          const Point<3> x = edge.point(q);
+          if (x.distance(tip_.position) > plateau_.outer)
+            continue;
+          const double cosine =
+            edge.sigma(1, q) * (edge.frame(0, q).t0 * edge.frame(1, q).t0);
+          AssertThrow(cosine > crack_crease,
+                      ExcMessage(where_ + "lies a crease, at " +
+                                 coordinates_of(x) +
+                                 "; choose smaller radii."));
+          AssertThrow(edge.point(q, 0).region() == tip_region &&
+                        edge.point(q, 1).region() == tip_region,
+                      ExcMessage(where_ + "lies another region, at " +
+                                 coordinates_of(x) +
+                                 "; choose smaller radii."));
+          AssertThrow(edge.frame(0, q).t0 * tip_.axes[2] > crack_bend,
+                      ExcMessage(where_ +
+                                 "the surface turns by more than "
+                                 "60 degrees, at " +
+                                 coordinates_of(x) +
+                                 "; choose smaller radii."));
+        }
     });
   }
 
@@ -379,7 +372,7 @@ namespace Nacre
       shell_.model.kinematics.model == KinematicsModel::linear;
     const double width = plateau_.outer - plateau_.inner;
     points.reinit(part);
-    const double side = side_of(shell_.discretization, tip_, part, points);
+    const double side = side_of_crack(shell_.discretization, tip_, part);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const auto surface = points.surface(q);
@@ -416,6 +409,64 @@ namespace Nacre
             sums[i + 1] -=
               weight * (change(add(plus, 1., X)) - change(add(minus, -1., X)) +
                         2. * (load * carried(X, extension) + held) * frame.j0);
+          }
+      }
+  }
+
+  void
+  EnergyRelease::add_edge(const ShellEdgeValues            &edge,
+                          const std::vector<WilliamsField> &fields,
+                          std::vector<double>              &sums) const
+  {
+    const auto is_inside = [&](const unsigned int q) {
+      return edge.point(q).distance(tip_.position) < plateau_.outer;
+    };
+    bool any = false;
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      any |= is_inside(q);
+    if (!any)
+      return;
+    std::array<CrackPoints, 2> points = {
+      {CrackPoints(shell_, Quadrature<dim>(edge.unit_points(0))),
+       CrackPoints(shell_, Quadrature<dim>(edge.unit_points(1)))}};
+    std::array<double, 2> side_of_lip;
+    for (unsigned int s = 0; s < 2; ++s)
+      {
+        points[s].reinit(edge.part(s));
+        side_of_lip[s] =
+          side_of_crack(shell_.discretization, tip_, edge.part(s));
+      }
+    const double penalty =
+      shell_.assembly.penalty().interior(edge.part(0), edge.part(1));
+    for (unsigned int q = 0; q < edge.n_points(); ++q)
+      {
+        if (!is_inside(q))
+          continue;
+        const std::array<CrackEdgeSide, 2> sides = {
+          {CrackEdgeSide(tip_, plateau_, edge, 0, q, points[0]),
+           CrackEdgeSide(tip_, plateau_, edge, 1, q, points[1])}};
+        const auto change = [&](const std::array<CrackEdgeSide, 2> &of) {
+          return edge_energy_change(shell_.section(),
+                                    shell_.model.kinematics.model ==
+                                      KinematicsModel::linear,
+                                    of,
+                                    penalty,
+                                    plateau_.outer - plateau_.inner);
+        };
+        sums[0] -= edge.JxW(q) * change(sides);
+        for (unsigned int i = 0; i < fields.size(); ++i)
+          {
+            auto plus = sides, minus = sides;
+            for (unsigned int s = 0; s < 2; ++s)
+              {
+                const auto X = williams_derivatives(fields[i],
+                                                    tip_,
+                                                    side_of_lip[s],
+                                                    sides[s].surface);
+                add(plus[s].u, 1., X);
+                add(minus[s].u, -1., X);
+              }
+            sums[i + 1] -= edge.JxW(q) * (change(plus) - change(minus));
           }
       }
   }
@@ -460,6 +511,8 @@ namespace Nacre
         CrackPoints of_part(shell_, ring_quadrature(discretization, part));
         add_part(of_part, part, fields, sums);
       });
+      for_each_edge(
+        [&](const ShellEdgeValues &edge) { add_edge(edge, fields, sums); });
       add_lips(fields, sums);
     });
     Utilities::MPI::sum(sums, discretization.communicator(), sums);

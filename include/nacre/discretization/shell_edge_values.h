@@ -176,6 +176,13 @@ namespace Nacre
       return table_of(side).shapes;
     }
 
+    /** The edge's points in the reference cell of a side. */
+    const std::vector<Point<dim>> &
+    unit_points(const unsigned int side) const
+    {
+      return table_of(side).points;
+    }
+
     /** Its cell's face that a side lies on. */
     unsigned int
     face(const unsigned int side) const

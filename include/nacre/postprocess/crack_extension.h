@@ -68,8 +68,12 @@ namespace Nacre
    *
    *   x,g q^g = eta(r),  y,g q^g = 0
    *
-   * with the plateau eta = 1 - t^3 (10 - 15 t + 6 t^2), t = (r - inner)/(outer
-   * - inner). A crack in the plane y = 0 moves along itself.
+   * with the plateau eta = 1 - t^5 (126 - 420 t + 540 t^2 - 315 t^3 + 70 t^4),
+   * t = (r - inner)/(outer - inner), which has four continuous derivatives:
+   * curvatures hold two of them, and quadrature and polynomials feel the third
+   * and fourth.
+   *
+   * A crack in the plane y = 0 moves along itself.
    */
   struct CrackExtension
   {
@@ -113,6 +117,42 @@ namespace Nacre
                   const VectorDerivatives &u,
                   const bool               is_linear);
 
+  /** The surface and a displacement that it carries along, at the advance s. */
+  struct MovedPoint
+  {
+    MovedPoint(const SurfacePatch      &surface,
+               const CrackExtension    &extension,
+               const VectorDerivatives &u,
+               const double             s);
+
+    /** @param tying as in energy_change() */
+    SectionResponse
+    response(const SectionAt &section,
+             const bool       is_linear,
+             const Voigt<>   &tying) const;
+
+    SurfaceFrame<>    frame;
+    SectionPoint      point;
+    VectorDerivatives u;
+    /** Of the parameters' area. */
+    double determinant;
+  };
+
+  /**
+   * df/ds at s = 0 of a function that varies over @p length, by differences of
+   * fourth order.
+   */
+  template <typename Function>
+  double
+  change_with_advance(const Function &f, const double length)
+  {
+    // The error is of the fourth order in step/length, round-off of the order
+    // length/step.
+    const double step = 1e-3 * length;
+    return (8. * (f(step) - f(-step)) - f(2. * step) + f(-2. * step)) /
+           (12. * step);
+  }
+
   /**
    * d/ds of the stored energy per area of the reference cell at s = 0, as the
    * parameters move, xi -> xi + s q(xi), with the displacement carried along as
@@ -122,8 +162,7 @@ namespace Nacre
    *   u,a -> u,a - s u,g q^g,a,
    *   u,ab -> u,ab - s (u,gb q^g,a + u,ga q^g,b + u,g q^g,ab),
    *
-   * and the surface, hence the section, taken at xi + s q. Differences of
-   * fourth order in s: any section law will do.
+   * and the surface, hence the section, taken at xi + s q.
    *
    * @param is_linear linear strains, or those of finite rotations
    * @param tying what a tied membrane strain has more than that of u; it stays

@@ -10,6 +10,15 @@
 namespace Nacre
 {
   /**
+   * Positive for a part behind the tip on the side of e_2, negative for one on
+   * the other side, 0 for one that lies at no lip: williams_value().
+   */
+  double
+  side_of_crack(const Discretization &discretization,
+                const CrackTip       &tip,
+                const CellPart       &part);
+
+  /**
    * The surface with three derivatives, and the displacement with two, at
    * fixed points of one part after the other. All that an energy release rate
    * takes of a displacement is here.

@@ -16,16 +16,18 @@
 namespace Nacre
 {
   class CrackPoints;
+  class ShellEdgeValues;
 
   /**
    * What a crack releases as its tip advances, by an integral over the cells
    * between two distances from the tip. Per length of the crack's front in the
    * mid-surface:
    *
-   *   G = -d/ds [sum int W(s) j0(s) det(1 + s dq) dxi]
+   *   G = -d/ds [sum int W(s) j0(s) det(1 + s dq) dxi + sum int W^e(s) ds]
    *       - int F . u,g q^g dA + int_lips d/ds (f . u ds),
    *
-   * with energy_change() and CrackExtension's q, the force F per area and the
+   * with energy_change() of the cells and edge_energy_change() of the edges
+   * between them, CrackExtension's q, the force F per area and the
    * force f per length of the lips. The second term is what -d/ds of the
    * potential -int f . u becomes by partial integration; it holds for a
    * pressure that follows, too.
@@ -116,6 +118,11 @@ namespace Nacre
     for_each_lip_point(
       const std::function<void(const LipPoint &)> &function) const;
 
+    /** For the edges between cells, or their pieces, that may be near. */
+    void
+    for_each_edge(
+      const std::function<void(const ShellEdgeValues &)> &function) const;
+
     void
     check_model() const;
 
@@ -139,6 +146,12 @@ namespace Nacre
     void
     add_part(CrackPoints                      &points,
              const CellPart                   &part,
+             const std::vector<WilliamsField> &fields,
+             std::vector<double>              &sums) const;
+
+    /** Add what an edge between two parts releases. */
+    void
+    add_edge(const ShellEdgeValues            &edge,
              const std::vector<WilliamsField> &fields,
              std::vector<double>              &sums) const;
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#ifndef nacre_postprocess_crack_edges_h
+#define nacre_postprocess_crack_edges_h
+
+#include <nacre/discretization/shell_edge_values.h>
+#include <nacre/postprocess/crack_points.h>
+
+#include <array>
+
+namespace Nacre
+{
+  /** A side of an edge between two cells, at a point that moves with a tip. */
+  struct CrackEdgeSide
+  {
+    /**
+     * Of the point @p q of the side @p side of an edge.
+     * @param points edge.unit_points(side) of that side's part
+     */
+    CrackEdgeSide(const CrackTip        &tip,
+                  const CrackPlateau    &plateau,
+                  const ShellEdgeValues &edge,
+                  const unsigned int     side,
+                  const unsigned int     q,
+                  const CrackPoints     &points);
+
+    SurfacePatch      surface;
+    CrackExtension    extension;
+    VectorDerivatives u;
+    /** What a tied membrane strain has more than that of u. */
+    Voigt<> tying;
+    /** Components of the edge's unit tangent d, one vector on both sides. */
+    Tensor<1, dim> tangent;
+    /** The conormal is nu = outward d x t0. */
+    double outward;
+    /** -1: the cell has the opposite orientation of the side 0; (N.14). */
+    double sigma;
+  };
+
+  /**
+   * d/ds at s = 0 of the energy of an edge between two cells, per length of the
+   * undeformed edge (force), as its points move and both sides carry their
+   * displacements along, see energy_change():
+   *
+   *   W(s) = [1/2 eta^e D theta^2 - {lambda m_nn} theta] |d + s d.dq|,
+   *
+   * in linear kinematics with the jump theta = [[theta(u)]] and lambda = 1,
+   * (N.12); else with the angle theta and the stretch lambda of (N.21),
+   * (N.24), (N.25). The penalty eta^e stays.
+   *
+   * @param penalty eta^e (1/length)
+   * @param length over which q varies
+   */
+  double
+  edge_energy_change(const SectionAt                    &section,
+                     const bool                          is_linear,
+                     const std::array<CrackEdgeSide, 2> &sides,
+                     const double                        penalty,
+                     const double                        length);
+} // namespace Nacre
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+#include <nacre/mechanics/shell_strain.h>
+#include <nacre/postprocess/crack_edges.h>
+
+#include <cmath>
+
+namespace Nacre
+{
+  namespace
+  {
+    using Vector3 = Tensor<1, spacedim>;
+
+    /** x,a d^a. */
+    Vector3
+    along_edge(const std::array<Vector3, 2> &x, const Tensor<1, dim> &d)
+    {
+      return d[0] * x[0] + d[1] * x[1];
+    }
+
+    /** A side of an edge at the advance s of the tip. */
+    struct MovedEdgeSide
+    {
+      MovedEdgeSide(const SectionAt     &section,
+                    const bool           is_linear,
+                    const CrackEdgeSide &side,
+                    const double         s);
+
+      /** d (1) of the moved surface; of unit length at s = 0. */
+      Vector3 tangent;
+      /** sigma t0. */
+      Vector3 normal;
+      /** sigma t and the tangent of the deformed surface. */
+      Vector3 deformed_normal;
+      Vector3 deformed_tangent;
+      /** theta of (N.11), in linear kinematics. */
+      double rotation;
+      /** lambda m_nn (force). */
+      double moment;
+      /** D(nu, nu, nu, nu) (force times length). */
+      double stiffness;
+    };
+
+    MovedEdgeSide::MovedEdgeSide(const SectionAt     &section,
+                                 const bool           is_linear,
+                                 const CrackEdgeSide &side,
+                                 const double         s)
+    {
+      const MovedPoint at(side.surface, side.extension, side.u, s);
+      const auto      &frame = at.frame;
+      const auto d = side.tangent + s * side.extension.gradient * side.tangent;
+      tangent      = along_edge(frame.a_cov, d);
+      normal       = side.sigma * frame.t0;
+      const Vector3 nu =
+        (side.outward / tangent.norm()) * cross_product_3d(tangent, frame.t0);
+      const auto dyad     = ShellStrain::dyad_of(frame, nu);
+      const auto response = at.response(section, is_linear, side.tying);
+      moment              = side.sigma * (dyad * response.moment);
+      stiffness           = dyad * (response.tangent.bending * dyad);
+      rotation            = normal * ((frame.a_con[0] * nu) * at.u.first[0] +
+                           (frame.a_con[1] * nu) * at.u.first[1]);
+      if (is_linear)
+        return;
+      const std::array<Vector3, 2> phi = {
+        {frame.a_cov[0] + at.u.first[0], frame.a_cov[1] + at.u.first[1]}};
+      const Vector3 area = cross_product_3d(phi[0], phi[1]);
+      deformed_tangent   = along_edge(phi, d);
+      deformed_normal    = side.sigma / area.norm() * area;
+      moment *=
+        area.norm() / frame.j0 * tangent.norm() / deformed_tangent.norm();
+    }
+
+    /** From @p a to @p b about the axis @p d, in (-pi, pi] (rad). */
+    double
+    angle_about(const Vector3 &d, const Vector3 &a, const Vector3 &b)
+    {
+      return std::atan2(cross_product_3d(a, b) * d / d.norm(), a * b);
+    }
+  } // namespace
+
+  CrackEdgeSide::CrackEdgeSide(const CrackTip        &tip,
+                               const CrackPlateau    &plateau,
+                               const ShellEdgeValues &edge,
+                               const unsigned int     side,
+                               const unsigned int     q,
+                               const CrackPoints     &points)
+    : surface(points.surface(q))
+    , extension(tip, plateau, surface)
+    , u(points.derivatives(q))
+    , tying(points.tying(q))
+    , sigma(edge.sigma(side, q))
+  {
+    const Vector3 d =
+      cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
+    const auto &frame = edge.frame(side, q);
+    for (unsigned int a = 0; a < dim; ++a)
+      tangent[a] = frame.a_con[a] * d;
+    outward =
+      cross_product_3d(d, frame.t0) * edge.conormal(side, q) > 0. ? 1. : -1.;
+  }
+
+  double
+  edge_energy_change(const SectionAt                    &section,
+                     const bool                          is_linear,
+                     const std::array<CrackEdgeSide, 2> &sides,
+                     const double                        penalty,
+                     const double                        length)
+  {
+    const auto energy = [&](const double s) {
+      const MovedEdgeSide minus(section, is_linear, sides[0], s);
+      const MovedEdgeSide plus(section, is_linear, sides[1], s);
+      const double        jump =
+        is_linear ? plus.rotation - minus.rotation :
+                           angle_about(minus.deformed_tangent,
+                                minus.deformed_normal,
+                                plus.deformed_normal) -
+                      angle_about(minus.tangent, minus.normal, plus.normal);
+      const double D    = 0.5 * (minus.stiffness + plus.stiffness);
+      const double mean = 0.5 * (minus.moment + plus.moment);
+      return (0.5 * penalty * D * jump - mean) * jump * minus.tangent.norm();
+    };
+    return change_with_advance(energy, length);
+  }
+} // namespace Nacre
