@@ -81,7 +81,7 @@ def tube(rows):
         sigma = 100. * row["load_factor"]
         g = row["G_crack_end"] * 1e9 / (.01 * sigma**2 * math.pi * a)
         check_near(f"G at lambda = {place:.3g}", g / folias(place), 1., .02)
-        check(abs(row["angle_crack_end"]) < 1., "straight")
+        check(abs(row["angle_crack_end"]) < 1.5, "straight")
     factors = [row["load_factor"] for row in rows]
     check(sorted(factors, reverse=True) == factors, "the pressure falls")
 
