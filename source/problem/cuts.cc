@@ -358,7 +358,7 @@ namespace Nacre
                   "harmonic function, normal ones by a biharmonic one; "
                   "'harmonic, all components': harmonic ones for all, whose "
                   "bending energy is infinite but for the quadrature. Both are "
-                  "for Type = linear on quadrilaterals, with the direct "
+                  "for Kinematics = linear on quadrilaterals, with the direct "
                   "solver. 'branch functions': the singular "
                   "fields of Williams around the tip's very place are added, "
                   "with coefficients of their own; for Kinematics = linear and "
