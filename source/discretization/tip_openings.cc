@@ -32,6 +32,107 @@ namespace Nacre
       x[1 - face / 2] = s;
       return x;
     }
+
+    /** Those of the nodes @p open that lie on a face with the @p nodes. */
+    std::vector<unsigned int>
+    nodes_on_face(const std::vector<PartEnrichment::Share::OpenNode> &open,
+                  const std::vector<unsigned int>                    &nodes)
+    {
+      std::vector<unsigned int> result;
+      for (const auto &node : open)
+        if (std::find(nodes.begin(), nodes.end(), node.node) != nodes.end())
+          result.push_back(node.node);
+      return result;
+    }
+
+    /** The conditions of psi_i on the edges of a cell, in the tip's plane. */
+    class JumpEdges
+    {
+    public:
+      /** @param size (length) the unit of the moments */
+      JumpEdges(const FiniteElement<dim, spacedim> &scalar_fe,
+                const std::vector<Point<spacedim>> &nodes,
+                const TipFunctions::Tip            &frame,
+                const double                        size)
+        : scalar_fe_(scalar_fe)
+        , nodes_(nodes)
+        , frame_(frame)
+        , size_(size)
+        , center_(surface_at(scalar_fe, nodes, Point<dim>(0.5, 0.5)).value)
+      {}
+
+      /**
+       * The @p value, none: natural conditions, on an interval of a face.
+       * @param open nodes that have the function there. Stresses that are
+       *   constant do no work on the errors of the fit: its moments with the
+       *   shape functions of these nodes are to vanish.
+       */
+      void
+      add(const unsigned int               face,
+          const std::pair<double, double> &interval,
+          const std::optional<double>      value,
+          const std::vector<unsigned int> &open)
+      {
+        const QGauss<1>                  rule(40);
+        std::vector<std::vector<double>> moments(
+          open.size(),
+          std::vector<double>(points_.size(), 0.));
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            const auto [begin, end] = interval;
+            const auto unit =
+              point_on_face(face, begin + rule.point(q)[0] * (end - begin));
+            const double length = add_point(face, unit, value);
+            for (unsigned int k = 0; k < open.size(); ++k)
+              moments[k].push_back(rule.weight(q) * length / size_ *
+                                   scalar_fe_.shape_value(open[k], unit));
+          }
+        moments_.insert(moments_.end(), moments.begin(), moments.end());
+        for (auto &weights : moments_)
+          weights.resize(points_.size(), 0.);
+      }
+
+      const std::vector<JumpBoundaryPoint> &
+      points() const
+      {
+        return points_;
+      }
+
+      const JumpMoments &
+      moments() const
+      {
+        return moments_;
+      }
+
+    private:
+      /** Returns the length of the face's tangent. */
+      double
+      add_point(const unsigned int          face,
+                const Point<dim>           &unit,
+                const std::optional<double> value)
+      {
+        const auto  x       = surface_at(scalar_fe_, nodes_, unit);
+        const auto  d       = x.value - Tensor<1, spacedim>(frame_.position);
+        const auto  outward = x.value - center_;
+        const auto &tangent = x.first[1 - face / 2];
+        const auto &e       = frame_.axes;
+        double      n_x = tangent * e[1], n_y = -(tangent * e[0]);
+        const bool  is_outward =
+          n_x * (outward * e[0]) + n_y * (outward * e[1]) > 0.;
+        const double scale = (is_outward ? 1. : -1.) / std::hypot(n_x, n_y);
+        points_.push_back(
+          {d * e[0], d * e[1], scale * n_x, scale * n_y, value});
+        return tangent.norm();
+      }
+
+      const FiniteElement<dim, spacedim> &scalar_fe_;
+      const std::vector<Point<spacedim>> &nodes_;
+      const TipFunctions::Tip            &frame_;
+      const double                        size_;
+      const Tensor<1, spacedim>           center_;
+      std::vector<JumpBoundaryPoint>      points_;
+      JumpMoments                         moments_;
+    };
   } // namespace
 
   TipOpenings::TipOpenings(
@@ -205,79 +306,35 @@ namespace Nacre
     const auto   nodes = positions_(parts_.part(cell));
     const auto   frame =
       tip_frame(tips_[t], surface_at(scalar_fe_, nodes, tips_[t].unit));
-    const auto center =
-      surface_at(scalar_fe_, nodes, Point<dim>(0.5, 0.5)).value -
-      Tensor<1, spacedim>(frame.position);
-    std::vector<JumpBoundaryPoint> boundary;
-    // Stresses that are constant do no work on the errors on edges: a moment
-    // for each node that has the function on a part of an edge.
-    JumpMoments     moments;
-    const QGauss<1> rule(40);
-    const auto      add = [&](const unsigned int          face,
-                         const double                begin,
-                         const double                end,
-                         const std::optional<double> value) {
-      const unsigned int first = boundary.size(), first_moment = moments.size();
-      if (value)
-        for (unsigned int k = 0; k < entry.nodes.size(); ++k)
-          if (const auto &on_face = face_nodes_[face];
-              std::find(on_face.begin(), on_face.end(), entry.nodes[k].node) !=
-              on_face.end())
-            moments.emplace_back(first, 0.);
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const auto unit =
-            point_on_face(face, begin + rule.point(q)[0] * (end - begin));
-          const auto  x = surface_at(scalar_fe_, nodes, unit);
-          const auto  d = x.value - Tensor<1, spacedim>(frame.position);
-          const auto &tangent = x.first[1 - face / 2];
-          double      n_x     = tangent * frame.axes[1],
-                 n_y          = -(tangent * frame.axes[0]);
-          const double out    = n_x * ((d - center) * frame.axes[0]) +
-                             n_y * ((d - center) * frame.axes[1]);
-          const double scale = (out > 0. ? 1. : -1.) / std::hypot(n_x, n_y);
-          boundary.push_back({d * frame.axes[0],
-                              d * frame.axes[1],
-                              scale * n_x,
-                              scale * n_y,
-                              value});
-          unsigned int m = first_moment;
-          for (const auto &open : entry.nodes)
-            if (const auto &on_face = face_nodes_[face];
-                m < moments.size() &&
-                std::find(on_face.begin(), on_face.end(), open.node) !=
-                  on_face.end())
-              moments[m++].push_back(rule.weight(q) * tangent.norm() /
-                                     cell->diameter() *
-                                     scalar_fe_.shape_value(open.node, unit));
-        }
+    const auto side_value = [&](const unsigned int face, const double s) {
+      return is_left(t, entry.place, point_on_face(face, s)) ? 1. : 0.;
     };
-    const auto side_value = [&](const Point<dim> &x) {
-      return is_left(t, entry.place, x) ? 1. : 0.;
-    };
+    JumpEdges  edges(scalar_fe_, nodes, frame, cell->diameter());
     const auto adjacent = adjacent_faces(entry);
     for (unsigned int face = 0; face < 4; ++face)
-      if (face == entry.face)
-        {
-          const double s = entry.place[1 - face / 2];
-          add(face, 0., s, side_value(point_on_face(face, 0.)));
-          add(face, s, 1., side_value(point_on_face(face, 1.)));
-        }
-      else if (std::find(adjacent.begin(), adjacent.end(), face) ==
-               adjacent.end())
-        add(face, 0., 1., std::nullopt);
-      else if (entry.face != numbers::invalid_unsigned_int)
-        add(face, 0., 1., side_value(point_on_face(entry.face, face % 2)));
-      else
-        add(face, 0., 1., side_value(point_on_face(face, 0.5)));
-
-    for (auto &weights : moments)
-      weights.resize(boundary.size(), 0.);
-    const JumpFunction tangential = harmonic_jump(boundary, moments);
-    JumpFunction       normal     = tangential;
+      {
+        const auto open = nodes_on_face(entry.nodes, face_nodes_[face]);
+        const bool is_adjacent =
+          std::find(adjacent.begin(), adjacent.end(), face) != adjacent.end();
+        if (face == entry.face)
+          {
+            const double s = entry.place[1 - face / 2];
+            edges.add(face, {0., s}, side_value(face, 0.), open);
+            edges.add(face, {s, 1.}, side_value(face, 1.), open);
+          }
+        else if (!is_adjacent)
+          edges.add(face, {0., 1.}, std::nullopt, {});
+        else if (entry.face != numbers::invalid_unsigned_int)
+          edges.add(face, {0., 1.}, side_value(entry.face, face % 2), open);
+        else
+          edges.add(face, {0., 1.}, side_value(face, 0.5), open);
+      }
+    const JumpFunction tangential =
+      harmonic_jump(edges.points(), edges.moments());
+    JumpFunction normal = tangential;
     if (cuts.tips == CutTips::harmonic)
       normal =
-        biharmonic_jump(boundary,
+        biharmonic_jump(edges.points(),
                         cuts.poissons_ratio(SectionPoint(tips_[t].position,
                                                          cell->material_id()),
                                             frame.axes[0],
