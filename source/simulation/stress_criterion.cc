@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace Nacre
@@ -220,20 +221,35 @@ namespace Nacre
               end - begin};
     }
 
+    /** Two lines from each place, against a direction and along it. */
+    std::vector<SurfaceLine>
+    lines_both_ways(
+      const std::vector<CrackStart>                                &places,
+      const std::function<Tensor<1, spacedim>(const CrackStart &)> &direction,
+      const std::function<double(const CrackStart &)>              &length)
+    {
+      std::vector<SurfaceLine> lines;
+      for (const CrackStart &place : places)
+        for (const double sign : {-1., 1.})
+          lines.push_back({place.position,
+                           sign * direction(place),
+                           place.normal,
+                           length(place)});
+      return lines;
+    }
+
     /** Fill in ends and drives. Collective. */
     void
     evaluate_places(const ShellState        &state,
                     const Growth            &growth,
                     std::vector<CrackStart> &places)
     {
-      std::vector<SurfaceLine> lines;
-      for (const CrackStart &place : places)
-        for (const double sign : {-1., 1.})
-          lines.push_back(
-            {place.position,
-             sign * place.direction,
-             place.normal,
-             std::max(place.distance, (1. + least_ligament) * place.step)});
+      auto lines = lines_both_ways(
+        places,
+        [](const CrackStart &place) { return place.direction; },
+        [](const CrackStart &place) {
+          return std::max(place.distance, (1. + least_ligament) * place.step);
+        });
       const auto ends = find_line_ends(state.discretization, lines);
       lines.clear();
       for (unsigned int i = 0; i < places.size(); ++i)
@@ -281,14 +297,12 @@ namespace Nacre
                    const Growth            &growth,
                    std::vector<CrackStart> &places)
     {
-      std::vector<SurfaceLine> lines;
-      for (const CrackStart &place : places)
-        for (const double sign : {-1., 1.})
-          lines.push_back(
-            {place.position,
-             sign * cross_product_3d(place.normal, place.direction),
-             place.normal,
-             0.5 * place.distance});
+      const auto lines = lines_both_ways(
+        places,
+        [](const CrackStart &place) {
+          return cross_product_3d(place.normal, place.direction);
+        },
+        [](const CrackStart &place) { return 0.5 * place.distance; });
       const auto ends = find_line_ends(state.discretization, lines);
       const std::vector<CrackStart> from = places;
       const auto moved = [&](const unsigned int i, const double share) {
