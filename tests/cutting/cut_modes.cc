@@ -5,6 +5,7 @@
 // conditioned wherever a cut runs, cuts along the edges of cells.
 
 #include "cut_shell.h"
+#include <nacre/forms/mass_terms.h>
 
 using namespace CutShells;
 
@@ -138,6 +139,50 @@ namespace
     test_hanging("tip inside", p_2, {tip}, {beside}, 6);
   }
 
+  /** v . M v of a mass of 1 per area beside the integral of v . v. */
+  void
+  test_mass(const Element &element)
+  {
+    const CutShell shell(square,
+                         element,
+                         {line("tip", {{-.1, .37}, {.6, .45}})},
+                         {},
+                         {},
+                         CutTips::branch_functions);
+    const auto    &discretization = *shell.discretization;
+    auto           v = zero_vector(discretization), Mv = v;
+    for (const auto i : v.locally_owned_elements())
+      v[i] = std::fmod(0.6180339887498949 * i, 1.) - 0.3;
+    v.compress(VectorOperation::insert);
+    MassTerms(discretization).vmult(Mv, v);
+
+    ShellCellValues                      values(discretization,
+                           discretization.element().full_quadrature(),
+                           false);
+    std::vector<types::global_dof_index> dofs;
+    double                               square_of_v = 0.;
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        discretization.get_dof_indices(part, dofs);
+        values.reinit_frames(part);
+        for (unsigned int q = 0; q < values.n_points(); ++q)
+          {
+            Tensor<1, 3> at_point;
+            for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
+              for (unsigned int c = 0; c < 3; ++c)
+                at_point[c] +=
+                  values.shapes().value(q, a) * v(dofs[values.dof(a, c)]);
+            for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+              at_point += static_cast<double>(v(dofs[values.tip_dof(k)])) *
+                          values.tip_function(q, k).value;
+            square_of_v += values.JxW(q) * at_point.norm_square();
+          }
+      }
+    check_below("mass of functions of a tip, " + label(element),
+                std::abs(v * Mv / square_of_v - 1.),
+                1e-11);
+  }
+
   /** A cut along edges of cells is a mesh whose nodes are double there. */
   void
   test_seam(const Element &element)
@@ -162,5 +207,6 @@ main(int argc, char *argv[])
   for (const auto &element :
        {Element{ElementType::lagrange, 2}, serendipity, triangle})
     test_seam(element);
+  test_mass({ElementType::lagrange, 2});
   return n_failures > 0;
 }
