@@ -21,10 +21,11 @@ namespace Nacre
   SectionAt::response(const Voigt<>        &membrane_strain,
                       const Voigt<>        &bending_strain,
                       const SurfaceFrame<> &frame,
-                      const SectionPoint   &point) const
+                      const SectionPoint   &point,
+                      const SectionState   &state) const
   {
     SectionResponse answer =
-      law.response(membrane_strain, bending_strain, frame, point);
+      law.response(membrane_strain, bending_strain, frame, point, state);
     if (!law.has_initial_strain())
       return answer;
     const InitialForces held = law.initial_forces(frame, point, instant);
@@ -40,7 +41,8 @@ namespace Nacre
   LinearSectionLaw::response(const Voigt<>        &membrane_strain,
                              const Voigt<>        &bending_strain,
                              const SurfaceFrame<> &frame,
-                             const SectionPoint   &point) const
+                             const SectionPoint   &point,
+                             const SectionState & /*state*/) const
   {
     SectionResponse answer;
     answer.tangent        = stiffness(frame, point);

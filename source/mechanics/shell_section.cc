@@ -61,10 +61,17 @@ namespace Nacre
                           const Voigt<>        &bending_strain,
                           const double          side,
                           const SurfaceFrame<> &frame,
-                          const SectionPoint   &point) const
+                          const SectionPoint   &point,
+                          const SectionState   &state) const
   {
     if (!has_initial_strain())
-      return stress(membrane_strain, bending_strain, side, frame, point);
+      return chosen_->stress_at(instant,
+                                membrane_strain,
+                                bending_strain,
+                                side,
+                                frame,
+                                point,
+                                state);
     const auto initial = initial_strain_.at(frame, point, instant);
     const auto eps     = membrane_strain - initial.membrane;
     const auto rho     = bending_strain - initial.bending;
@@ -79,10 +86,16 @@ namespace Nacre
                           const Voigt<>        &membrane_strain,
                           const Voigt<>        &bending_strain,
                           const SurfaceFrame<> &frame,
-                          const SectionPoint   &point) const
+                          const SectionPoint   &point,
+                          const SectionState   &state) const
   {
     if (!has_initial_strain() || chosen_ != &laminate_)
-      return layers(membrane_strain, bending_strain, frame, point);
+      return chosen_->layers_at(instant,
+                                membrane_strain,
+                                bending_strain,
+                                frame,
+                                point,
+                                state);
     const auto initial = initial_strain_.at(frame, point, instant);
     return laminate_.layers(membrane_strain - initial.membrane,
                             bending_strain - initial.bending,

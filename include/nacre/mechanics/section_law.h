@@ -8,6 +8,7 @@
 #include <nacre/base/mesh_region.h>
 #include <nacre/mechanics/surface_frame.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/types.h>
 
 #include <array>
@@ -54,6 +55,13 @@ namespace Nacre
     /** B: membrane forces from bending strains; zero if not coupled. */
     VoigtMatrix<> coupling = {};
   };
+
+  /**
+   * What a section remembers at a point: numbers whose meaning its law knows,
+   * as many as n_state_variables(). Zeros are the state at rest, of a point
+   * that was never loaded; an empty view stands for zeros.
+   */
+  using SectionState = ArrayView<const double>;
 
   /** What a section answers to strains; covariant basis, Voigt. */
   struct SectionResponse
@@ -117,6 +125,10 @@ namespace Nacre
    *
    * Strains are those of the reference surface: a fibre at the distance z
    * along t0 has the strain eps + z rho.
+   *
+   * A law may have a state at each point, which is that of the start of a step
+   * until update_state() replaces it at the step's end: what it answers within
+   * a step depends on the strains alone, as if it were elastic.
    */
   class SectionLaw
   {
@@ -162,17 +174,53 @@ namespace Nacre
     virtual double
     density(const SectionPoint &point) const = 0;
 
+    /** Of how many numbers the state of a point consists. */
+    virtual unsigned int
+    n_state_variables() const
+    {
+      return 0;
+    }
+
     /**
      * Membrane forces, moments, tangent and energy at @p point with the
-     * surface's @p frame.
+     * surface's @p frame: n = dw/deps, m = dw/drho, and the tangent is the
+     * second derivative of w, which is symmetric.
      * @param membrane_strain eps (e11, e22, 2 e12) (length^2)
      * @param bending_strain rho (r11, r22, 2 r12) (length)
+     * @param state at the start of the step
      */
     virtual SectionResponse
     response(const Voigt<>        &membrane_strain,
              const Voigt<>        &bending_strain,
              const SurfaceFrame<> &frame,
-             const SectionPoint   &point) const = 0;
+             const SectionPoint   &point,
+             const SectionState   &state) const = 0;
+
+    /** In the state at rest. */
+    SectionResponse
+    response(const Voigt<>        &membrane_strain,
+             const Voigt<>        &bending_strain,
+             const SurfaceFrame<> &frame,
+             const SectionPoint   &point) const
+    {
+      return response(membrane_strain,
+                      bending_strain,
+                      frame,
+                      point,
+                      SectionState());
+    }
+
+    /**
+     * Replace @p state, that of the start of a step, by that of its end at
+     * these strains, which response() takes.
+     */
+    virtual void
+    update_state(const Voigt<> & /*membrane_strain*/,
+                 const Voigt<> & /*bending_strain*/,
+                 const SurfaceFrame<> & /*frame*/,
+                 const SectionPoint & /*point*/,
+                 const ArrayView<double> & /*state*/) const
+    {}
 
     /** The tangent at rest; for linear laws at all strains. */
     virtual SectionStiffness
@@ -237,14 +285,18 @@ namespace Nacre
       return {};
     }
 
-    /** stress() and layers() with the initial strains of @p instant. */
+    /**
+     * stress() and layers() with the initial strains of @p instant and in
+     * @p state, that of response(): laws with states override these.
+     */
     virtual Voigt<>
     stress_at(const Instant & /*instant*/,
               const Voigt<>        &membrane_strain,
               const Voigt<>        &bending_strain,
               const double          side,
               const SurfaceFrame<> &frame,
-              const SectionPoint   &point) const
+              const SectionPoint   &point,
+              const SectionState & /*state*/) const
     {
       return stress(membrane_strain, bending_strain, side, frame, point);
     }
@@ -254,7 +306,8 @@ namespace Nacre
               const Voigt<>        &membrane_strain,
               const Voigt<>        &bending_strain,
               const SurfaceFrame<> &frame,
-              const SectionPoint   &point) const
+              const SectionPoint   &point,
+              const SectionState & /*state*/) const
     {
       return layers(membrane_strain, bending_strain, frame, point);
     }
@@ -268,7 +321,10 @@ namespace Nacre
     }
   };
 
-  /** A section at an instant: what it answers with its initial strains. */
+  /**
+   * A section at an instant: what it answers with its initial strains, in a
+   * state, by default that at rest.
+   */
   struct SectionAt
   {
     const SectionLaw &law;
@@ -278,34 +334,39 @@ namespace Nacre
     response(const Voigt<>        &membrane_strain,
              const Voigt<>        &bending_strain,
              const SurfaceFrame<> &frame,
-             const SectionPoint   &point) const;
+             const SectionPoint   &point,
+             const SectionState   &state = {}) const;
 
     Voigt<>
     stress(const Voigt<>        &membrane_strain,
            const Voigt<>        &bending_strain,
            const double          side,
            const SurfaceFrame<> &frame,
-           const SectionPoint   &point) const
+           const SectionPoint   &point,
+           const SectionState   &state = {}) const
     {
       return law.stress_at(instant,
                            membrane_strain,
                            bending_strain,
                            side,
                            frame,
-                           point);
+                           point,
+                           state);
     }
 
     std::vector<LayerState>
     layers(const Voigt<>        &membrane_strain,
            const Voigt<>        &bending_strain,
            const SurfaceFrame<> &frame,
-           const SectionPoint   &point) const
+           const SectionPoint   &point,
+           const SectionState   &state = {}) const
     {
       return law.layers_at(instant,
                            membrane_strain,
                            bending_strain,
                            frame,
-                           point);
+                           point,
+                           state);
     }
   };
 
@@ -321,11 +382,14 @@ namespace Nacre
     stiffness(const SurfaceFrame<> &frame,
               const SectionPoint   &point) const override = 0;
 
+    using SectionLaw::response;
+
     SectionResponse
     response(const Voigt<>        &membrane_strain,
              const Voigt<>        &bending_strain,
              const SurfaceFrame<> &frame,
-             const SectionPoint   &point) const override;
+             const SectionPoint   &point,
+             const SectionState   &state) const override;
 
     bool
     is_linear() const override

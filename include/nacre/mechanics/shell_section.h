@@ -53,13 +53,40 @@ namespace Nacre
       return chosen_->density(point);
     }
 
+    unsigned int
+    n_state_variables() const override
+    {
+      return chosen_->n_state_variables();
+    }
+
+    using SectionLaw::response;
+
     SectionResponse
     response(const Voigt<>        &membrane_strain,
              const Voigt<>        &bending_strain,
              const SurfaceFrame<> &frame,
-             const SectionPoint   &point) const override
+             const SectionPoint   &point,
+             const SectionState   &state) const override
     {
-      return chosen_->response(membrane_strain, bending_strain, frame, point);
+      return chosen_->response(membrane_strain,
+                               bending_strain,
+                               frame,
+                               point,
+                               state);
+    }
+
+    void
+    update_state(const Voigt<>           &membrane_strain,
+                 const Voigt<>           &bending_strain,
+                 const SurfaceFrame<>    &frame,
+                 const SectionPoint      &point,
+                 const ArrayView<double> &state) const override
+    {
+      chosen_->update_state(membrane_strain,
+                            bending_strain,
+                            frame,
+                            point,
+                            state);
     }
 
     SectionStiffness
@@ -127,14 +154,16 @@ namespace Nacre
               const Voigt<>        &bending_strain,
               const double          side,
               const SurfaceFrame<> &frame,
-              const SectionPoint   &point) const override;
+              const SectionPoint   &point,
+              const SectionState   &state) const override;
 
     std::vector<LayerState>
     layers_at(const Instant        &instant,
               const Voigt<>        &membrane_strain,
               const Voigt<>        &bending_strain,
               const SurfaceFrame<> &frame,
-              const SectionPoint   &point) const override;
+              const SectionPoint   &point,
+              const SectionState   &state) const override;
 
   private:
     /** Set chosen_ from the parameter, which may have changed. */
