@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
+#include <nacre/mechanics/checked_value.h>
 #include <nacre/mechanics/laminate_section.h>
 #include <nacre/mechanics/ply_stack.h>
 #include <nacre/mechanics/section_regions.h>
@@ -15,18 +16,6 @@ namespace Nacre
   namespace
   {
     const std::string parameters = "Section/Laminate/";
-
-    double
-    checked_thickness(const double       value,
-                      const std::string &where,
-                      const Point<3>    &point)
-    {
-      AssertThrow(value > 0.,
-                  ExcMessage(where + ": " + Text::number(value) +
-                             " at the point " + point_text(point) +
-                             "; it must be positive."));
-      return value;
-    }
 
     /** The values of a material by their keys. */
     std::map<std::string, double>
@@ -247,9 +236,9 @@ namespace Nacre
     double ply_thickness = 1.;
     if (!texts.ply_thickness.empty())
       ply_thickness =
-        checked_thickness(evaluate_number(texts.ply_thickness, ply, constants),
-                          ply,
-                          Point<3>());
+        positive(evaluate_number(texts.ply_thickness, ply, constants),
+                 ply,
+                 Point<3>());
     else
       AssertThrow(n_plain == 0 || (has_whole && n_plain == layers.size()),
                   ExcMessage(
@@ -305,8 +294,7 @@ namespace Nacre
       Expression(has_whole ? texts.thickness : total.str(), whole, constants);
     Constants known = constants;
     if (layup.thickness.is_constant())
-      known["h"] =
-        checked_thickness(thickness(layup, Point<3>()), whole, Point<3>());
+      known["h"] = positive(thickness(layup, Point<3>()), whole, Point<3>());
     layup.offset =
       evaluate_number(texts.offset, name("Offset", "offset"), known);
     const std::string direction = Text::trim(texts.direction);
@@ -442,7 +430,7 @@ namespace Nacre
   {
     return thickness_of_study_ && !layup.has_own_thickness ?
              *thickness_of_study_ :
-             checked_thickness(layup.thickness(point), layup.where, point);
+             positive(layup.thickness(point), layup.where, point);
   }
 
   double

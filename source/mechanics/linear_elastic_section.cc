@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/text.h>
+#include <nacre/mechanics/checked_value.h>
 #include <nacre/mechanics/linear_elastic_section.h>
 #include <nacre/mechanics/section_regions.h>
 
@@ -12,19 +13,7 @@ namespace Nacre
 {
   namespace
   {
-    /** To print also the tiny numbers that std::to_string makes 0. */
     const char *const regions_parameter = "Section/Regions";
-
-    double
-    positive(const double value, const std::string &what, const Point<3> &point)
-    {
-      AssertThrow(value > 0.,
-                  ExcMessage(
-                    what + ": " + Text::number(value) + " at the point (" +
-                    Text::number(point[0]) + ", " + Text::number(point[1]) +
-                    ", " + Text::number(point[2]) + "); it must be positive."));
-      return value;
-    }
 
     double
     checked_nu(const double nu, const std::string &where)

@@ -12,9 +12,14 @@ namespace Nacre
                   type_,
                   "isotropic: a homogeneous section of the values below; "
                   "laminate: a stack of orthotropic plies, by the subsection "
-                  "Laminate alone.",
+                  "Laminate alone; neo-Hookean: an incompressible material of "
+                  "large strains, by the subsection Neo-Hookean and the "
+                  "thickness and density below; elastoplastic: the isotropic "
+                  "section, whose layers yield, by the subsection Plasticity. "
+                  "The last two need 'Discretization/Kinematics = finite'.",
                   prm,
-                  Patterns::Selection("isotropic|laminate"));
+                  Patterns::Selection(
+                    "isotropic|laminate|neo-Hookean|elastoplastic"));
   }
 
   void
@@ -24,12 +29,20 @@ namespace Nacre
                 ExcMessage("Section/Regions: these are regions of isotropic "
                            "sections; for 'Type = laminate' use "
                            "'Section/Laminate/Regions'."));
+    AssertThrow(type_ != "neo-Hookean" || !isotropic_.has_regions(),
+                ExcMessage("Section/Regions: these are regions of isotropic "
+                           "sections; for 'Type = neo-Hookean' thickness and "
+                           "shear modulus may be expressions of x, y, z."));
     choose();
     chosen_->prepare(constants);
     Constants known = constants;
     for (const auto &[name, value] : chosen_->named_constants())
       known.emplace(name, value);
     initial_strain_.prepare(known, chosen_ == &laminate_);
+    AssertThrow(chosen_->is_linear() || initial_strain_.is_zero(),
+                ExcMessage("Section/Initial strain: it needs 'Type = "
+                           "isotropic' or 'laminate'; 'Type = " +
+                           type_ + "' starts without strain."));
   }
 
   InitialForces
@@ -109,6 +122,10 @@ namespace Nacre
   {
     if (type_ == "laminate")
       chosen_ = &laminate_;
+    else if (type_ == "neo-Hookean")
+      chosen_ = &neo_hookean_;
+    else if (type_ == "elastoplastic")
+      chosen_ = &elastoplastic_;
     else
       chosen_ = &isotropic_;
   }

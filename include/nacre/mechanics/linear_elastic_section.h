@@ -9,6 +9,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,17 +18,15 @@
 namespace Nacre
 {
   /**
-   * The dimensionless isotropic stiffness (10) with the metric G of the
-   * surface (1/length^4), in Voigt order:
+   * The dimensionless isotropic stiffness (10) with the metric G^11, G^22, G^12
+   * (1/length^2), in Voigt order:
    * H^abcd = nu G^ab G^cd + (1 - nu)/2 (G^ac G^bd + G^ad G^bc).
    */
   template <typename Number>
   VoigtMatrix<Number>
-  isotropic_stiffness(const SurfaceFrame<Number> &frame, const Number &nu)
+  isotropic_stiffness(const std::array<Number, 3> &metric, const Number &nu)
   {
-    const Number g_11 = frame.metric_con[0];
-    const Number g_22 = frame.metric_con[1];
-    const Number g_12 = frame.metric_con[2];
+    const auto &[g_11, g_22, g_12] = metric;
 
     VoigtMatrix<Number> H;
     H[0][0] = g_11 * g_11;
@@ -40,6 +39,14 @@ namespace Nacre
     H[2][0] = H[0][2];
     H[2][1] = H[1][2];
     return H;
+  }
+
+  /** The same with the metric of the surface. */
+  template <typename Number>
+  VoigtMatrix<Number>
+  isotropic_stiffness(const SurfaceFrame<Number> &frame, const Number &nu)
+  {
+    return isotropic_stiffness(frame.metric_con, nu);
   }
 
   /**
@@ -79,6 +86,13 @@ namespace Nacre
     double
     density(const SectionPoint &point) const override;
 
+    /** E (force/length^2) at @p point; throws if it isn't positive. */
+    double
+    youngs_modulus(const SectionPoint &point) const;
+
+    double
+    poissons_ratio(const SectionPoint &point) const;
+
     SectionStiffness
     stiffness(const SurfaceFrame<> &frame,
               const SectionPoint   &point) const override;
@@ -103,12 +117,6 @@ namespace Nacre
     /** The region's own expression named @p key, or nothing. */
     const Expression *
     own_value(const SectionPoint &point, const std::string &key) const;
-
-    double
-    youngs_modulus(const SectionPoint &point) const;
-
-    double
-    poissons_ratio(const SectionPoint &point) const;
 
     std::string youngs_modulus_text_ = "1";
     std::string thickness_text_      = "0.1";

@@ -4,9 +4,11 @@
 #ifndef nacre_mechanics_shell_section_h
 #define nacre_mechanics_shell_section_h
 
+#include <nacre/mechanics/elastoplastic_section.h>
 #include <nacre/mechanics/initial_strain.h>
 #include <nacre/mechanics/laminate_section.h>
 #include <nacre/mechanics/linear_elastic_section.h>
+#include <nacre/mechanics/neo_hookean_section.h>
 
 namespace Nacre
 {
@@ -173,6 +175,8 @@ namespace Nacre
     std::string          type_ = "isotropic";
     LinearElasticSection isotropic_;
     LaminateSection      laminate_;
+    NeoHookeanSection    neo_hookean_{isotropic_};
+    ElastoplasticSection elastoplastic_{isotropic_};
     SectionLaw          *chosen_ = &isotropic_;
 
     InitialStrainParameters initial_strain_;
