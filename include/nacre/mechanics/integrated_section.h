@@ -240,7 +240,8 @@ namespace Nacre
     part(const ArrayView<Number> &state, const unsigned int q)
     {
       const unsigned int n = Material::n_state_variables;
-      return state.size() == 0 ? state : ArrayView<Number>(state.data() + q * n, n);
+      return state.size() == 0 ? state :
+                                 ArrayView<Number>(state.data() + q * n, n);
     }
 
     /** The state at @p height, between two points of the rule or beyond. */

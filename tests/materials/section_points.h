@@ -162,10 +162,16 @@ namespace Tests
           double size = 0.;
           for (const double strain : strains)
             size = std::max(size, std::abs(strain));
- if (step.linfty_norm() <= 1e-13 * size)
+          if (step.linfty_norm() <= 1e-13 * size)
             return;
         }
       check_below("Newton's method converges at a point", 1., 0.);
+    }
+
+    const std::vector<double> &
+    state() const
+    {
+      return state_;
     }
 
   private:

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 by the Nacre authors
+"""Wrong materials and what Nacre must say; tests/parameters/bad_input.py runs
+them and explains the cases."""
+
+WITH_GOOD_CASES = False
+BASE = """\
+set Title = Strip
+
+subsection Study
+  set Degrees     = 2
+  set Refinements = 0
+end
+subsection Mid-surface
+  set Surface      = plate
+  set Subdivisions = 2
+end
+subsection Discretization
+  set Kinematics = finite
+end
+subsection Boundary conditions
+  set Edges = u=0: clamped
+end
+subsection Loads
+  set Force per area = 0, 0, -1e-6
+end
+subsection Analysis
+  set Type = static
+end
+subsection Quantities
+  set Quantities = w = displacement z at (1, 0.5, 0)
+end
+"""
+TYPE = "Section/Type"
+MU = "Section/Neo-Hookean/Shear modulus"
+YIELD = "Section/Plasticity/Yield stress"
+HARDENING = "Section/Plasticity/Hardening modulus"
+POINTS = "Section/Plasticity/Points"
+
+CASES = {}
+
+
+def case(name, expect, settings):
+    assert name not in CASES, name
+    CASES[name] = dict(expect=expect, settings=settings, change=None, prm=BASE,
+                       args=[], folder={}, code=1)
+
+
+def rubber(name, expect, **settings):
+    case(name, expect, {TYPE: "neo-Hookean", MU: "1", **settings})
+
+
+def metal(name, expect, **settings):
+    case(name, expect, {TYPE: "elastoplastic", YIELD: "1e-3", **settings})
+
+
+rubber("no_shear_modulus", [MU, "empty"], **{MU: ""})
+rubber("shear_modulus", [MU, "-1", "positive"], **{MU: "-1"})
+rubber("shear_modulus_somewhere", [MU, "positive", "point"], **{MU: "x - 0.5"})
+rubber("rubber_regions", ["Section/Regions", "neo-Hookean", "expressions"],
+       **{"Section/Regions": "web: h = 1"})
+rubber("rubber_initial_strain", ["Section/Initial strain", "neo-Hookean"],
+       **{"Section/Initial strain/Temperature": "1",
+          "Section/Initial strain/Thermal expansion": "1e-5"})
+metal("no_yield_stress", [YIELD, "empty"], **{YIELD: ""})
+metal("yield_stress", [YIELD, "0", "positive"], **{YIELD: "0"})
+metal("softening", [HARDENING, "-0.1", "not be negative"],
+      **{HARDENING: "-0.1"})
+metal("simpson_points", [POINTS, "7", "5, 9, 13"], **{POINTS: "7"})
+metal("linear_kinematics", ["finite"],
+      **{"Discretization/Kinematics": "linear"})
