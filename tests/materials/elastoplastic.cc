@@ -127,12 +127,12 @@ test_derivatives()
       size = std::max(size, std::abs(straight.state()[k]));
     }
   check_below("basis, state", difference / size, 1e-12);
-  check_below(
-    "stiffness at rest",
-    (text.section.stiffness(skewed_frame(), Point<3>()).bending -
-     text.section.response({}, {}, skewed_frame(), Point<3>()).tangent.bending)
-      .norm(),
-    1e-16);
+  const auto rest = text.section.stiffness(skewed_frame(), Point<3>());
+  const auto zero = text.section.response({}, {}, skewed_frame(), Point<3>());
+  check_below("stiffness at rest",
+              (rest.bending - zero.tangent.bending).norm() /
+                rest.bending.norm(),
+              1e-13);
 }
 
 /** The stress lies on the yield surface, however far the strains are. */
@@ -186,7 +186,7 @@ test_strip(const std::string           &name,
                  std::abs(strip.contraction() + row.contraction));
     }
   check_below(name, error, 2.5e-4);
-  check_below(name + ", contraction", contraction_error, 2e-4);
+  check_below(name + ", contraction", contraction_error, 4e-4);
 }
 
 void
@@ -220,6 +220,27 @@ test_strips()
               {3., 1.6547022, 0.},
               {5., 1.7041378, 0.},
               {10., 1.7250719, 0.}});
+}
+
+/** The largest deviation of M/M_y in uniaxial stress, of any k, by rule. */
+void
+test_rules()
+{
+  for (const auto &[points, bound] : {std::make_pair(5u, 0.13),
+                                      std::make_pair(9u, 0.032),
+                                      std::make_pair(17u, 8e-3),
+                                      std::make_pair(33u, 2e-3)})
+    {
+      const SectionOfText text(metal(0.499999, points));
+      double              error = 0.;
+      for (double k = 1.; k < 20.; k += 0.05)
+        {
+          Strip strip(text.section, true);
+          error =
+            std::max(error, std::abs(strip.bend(k, 1) - 1.5 + 0.5 / (k * k)));
+        }
+      check_below(std::to_string(points) + " points", error, bound);
+    }
 }
 
 /** nu = 0: the contraction is of no table. */
@@ -321,6 +342,7 @@ main(int argc, char **argv)
   test_derivatives();
   test_yield_surface();
   test_strips();
+  test_rules();
   test_strip_without_contraction();
   test_springback();
   test_cycles();
