@@ -70,6 +70,8 @@ namespace Nacre
         const int       turn = attempt.turn;
         accept(std::move(attempt), end, state);
         const bool switches = look_for_point(before, turn, callbacks, state);
+        // Only now: points lie within the step.
+        system_.accept_step(state.motion.u, state.time);
         if (!switches && callbacks.pauses && callbacks.pauses(state))
           return "";
         system_.set_time(state.time);

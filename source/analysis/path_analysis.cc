@@ -76,6 +76,7 @@ namespace Nacre
         if (!failure.empty())
           return "the start has no equilibrium nearby at t = 0: " + failure +
                  ". " + remedy(FailureKind::no_convergence, parameters_);
+        system_.accept_step(state.motion.u, state.time);
         callbacks.observe(state);
       }
     if (curve_)
@@ -113,6 +114,7 @@ namespace Nacre
         ++state.step;
         state.time = end;
         std::move(attempt).accept(system_, state);
+        system_.accept_step(state.motion.u, state.time);
         step_control_.accept(state, state.iterations);
         if (callbacks.pauses && callbacks.pauses(state))
           return "";
@@ -127,13 +129,17 @@ namespace Nacre
   PathAnalysis::settle(PathState &state)
   {
     Assert(!parameters_.is_dynamic(), ExcInternalError());
+    std::string failure;
     if (curve_)
-      return curve_->settle(state);
-    Attempt attempt = try_searches(state, 0.);
-    if (!attempt.result.converged)
-      return attempt.result.reason;
-    std::move(attempt).accept(system_, state);
-    return "";
+      failure = curve_->settle(state);
+    else if (Attempt attempt = try_searches(state, 0.);
+             attempt.result.converged)
+      std::move(attempt).accept(system_, state);
+    else
+      failure = attempt.result.reason;
+    if (failure.empty())
+      system_.accept_step(state.motion.u, state.time);
+    return failure;
   }
 
   PathAnalysis::Vector

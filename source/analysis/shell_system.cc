@@ -66,6 +66,15 @@ namespace Nacre
   }
 
   void
+  ShellSystem::accept_step(const Vector &u, const double time)
+  {
+    if (assembly_.section_states().has_none())
+      return;
+    set_time(time);
+    assembly_.update_section_states(with_ghosts(u), actions_);
+  }
+
+  void
   ShellSystem::hold(const Vector  &u,
                     const Inertia &inertia,
                     const double   duration)

@@ -323,8 +323,11 @@ namespace Nacre
                // Strains that vanish at few points only must not count as none.
                discretization.element().full_quadrature(),
                parts.eta)
-    , kinematics_(
-        make_kinematics(discretization, parts.section, parts.kinematics))
+    , section_states_(std::make_unique<SectionStates>(parts.section))
+    , kinematics_(make_kinematics(discretization,
+                                  parts.section,
+                                  parts.kinematics,
+                                  section_states_.get()))
     , rotation_conditions_(discretization,
                            parts.supports,
                            parts.load_factor,
@@ -343,6 +346,17 @@ namespace Nacre
     if (state.inertia != nullptr)
       terms.push_back(state.inertia);
     return terms;
+  }
+
+  void
+  Assembly::update_section_states(const Vector       &u,
+                                  const ShellActions &actions) const
+  {
+    section_states_->update(discretization_, [&]() {
+      Vector unused(discretization_.locally_owned_dofs(),
+                    discretization_.communicator());
+      residual(u, actions, unused);
+    });
   }
 
   void

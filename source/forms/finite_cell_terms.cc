@@ -45,9 +45,11 @@ namespace Nacre
   FiniteCellTerms::FiniteCellTerms(const Discretization &discretization,
                                    const SectionLaw     &section,
                                    const MembraneStrain  membrane_strain,
-                                   const TangentType     tangent_type)
+                                   const TangentType     tangent_type,
+                                   SectionStates        *states)
     : section_(section)
     , is_stress_only_(tangent_type == TangentType::stress)
+    , states_(states)
     , full_points_(discretization,
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied,
@@ -83,18 +85,22 @@ namespace Nacre
   }
 
   void
-  FiniteCellTerms::evaluate(CellPoints  &points,
-                            const double share,
-                            const bool   in_step)
+  FiniteCellTerms::evaluate(const CellPart &part,
+                            CellPoints     &points,
+                            const double    share,
+                            const bool      in_step)
   {
     const auto &values = points.values;
+    const auto  states = states_ != nullptr ? states_->of_cell(part, values) :
+                                              SectionStates::Points();
     points.sections.clear();
     for (unsigned int q = 0; q < values.n_points(); ++q)
       {
         points.sections.emplace_back(section_,
                                      values.frame(q),
                                      values.point(q),
-                                     values.JxW(q));
+                                     values.JxW(q),
+                                     states[q]);
         auto &blocks = points.sections.back();
         blocks.A *= share;
         if (section_.has_initial_strain())
@@ -138,18 +144,18 @@ namespace Nacre
                            1.;
     force_.assign(values.shapes().n_nodes(), Vector3());
     const auto add_points = [&](CellPoints &points, const double factor) {
-      evaluate(points, factor, in_step);
+      evaluate(part, points, factor, in_step);
       points.cell.add_force(points.values, force_);
       if (!in_step)
         {
           terms.energies.membrane += points.cell.membrane_energy();
           terms.energies.bending += points.cell.bending_energy();
-          if (section_.has_initial_strain())
+          if (section_.has_initial_strain() || !section_.is_linear())
             for (unsigned int q = 0; q < points.sections.size(); ++q)
               {
                 const auto [E, kappa] = points.cell.strains(q);
                 const auto energies =
-                  points.sections[q].initial_energies(E, kappa);
+                  points.sections[q].other_energies(E, kappa);
                 terms.energies.membrane += energies[0];
                 terms.energies.bending += points.bends ? energies[1] : 0.;
               }

@@ -10,14 +10,15 @@ namespace Nacre
   namespace
   {
     using Vector3 = Tensor<1, spacedim>;
-
   } // namespace
 
   FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,
-                                   const TangentType tangent_type)
+                                   const TangentType tangent_type,
+                                   SectionStates    *states)
     : section_(section)
     , limits_gap_(tangent_type == TangentType::symmetric)
     , is_stress_only_(tangent_type == TangentType::stress)
+    , states_(states)
   {}
 
   void
@@ -29,6 +30,7 @@ namespace Nacre
   {
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_nodes(edge, s, u, u_[s]);
+    point_.set_states(SectionStates::of_edge(states_, edge));
     evaluate_membrane(edge);
     if (terms.wants_tangent)
       reinit_rows(edge);
@@ -144,6 +146,7 @@ namespace Nacre
                                 const Vector<double>     &u)
   {
     extract_nodes(edge, 0, u, u_[0]);
+    point_.set_states({});
     point_.reinit(edge, q, section_, 1., rotation, u_);
     return std::abs(point_.jump());
   }

@@ -152,6 +152,10 @@ namespace Nacre
     {
       if (!section.has_initial_strain())
         return;
+      AssertThrow(section.is_linear(),
+                  ExcMessage("Section/Initial strain: a section whose law "
+                             "isn't linear has no terms for it; leave it "
+                             "empty, or choose another 'Section/Type'."));
       AssertThrow(options.model != KinematicsModel::corotational,
                   ExcMessage("Section/Initial strain: 'Discretization/"
                              "Kinematics = corotational' has no terms for it; "
@@ -167,14 +171,32 @@ namespace Nacre
                              "sections that couple membrane forces and "
                              "bending; choose tied."));
     }
+
+    /** Only the finite rotations ask a section at the strains of now. */
+    void
+    check_nonlinear(const SectionLaw &section, const KinematicsOptions &options)
+    {
+      if (section.is_linear())
+        return;
+      AssertThrow(options.model == KinematicsModel::finite,
+                  ExcMessage("Discretization/Kinematics: '" +
+                             name_of(options.model) +
+                             "' is for linear sections only, and the law of "
+                             "this section isn't; choose finite."));
+      AssertThrow(section.is_coupled(),
+                  ExcMessage("Section: a law that isn't linear must be said to "
+                             "couple membrane forces and bending."));
+    }
   } // namespace
 
   std::unique_ptr<Kinematics>
   make_kinematics(const Discretization    &discretization,
                   const SectionLaw        &section,
-                  const KinematicsOptions &options)
+                  const KinematicsOptions &options,
+                  SectionStates           *states)
   {
     check_initial_strain(section, discretization.element(), options);
+    check_nonlinear(section, options);
     if (options.edge_form == EdgeForm::averaged_normal)
       {
         AssertThrow(
@@ -190,9 +212,6 @@ namespace Nacre
       }
     if (options.model == KinematicsModel::corotational)
       {
-        AssertThrow(section.is_linear(),
-                    ExcMessage("Discretization/Kinematics: corotational: it is "
-                               "for linear sections only."));
         refuse_blended_coupling(discretization.element(), section, options);
         return std::make_unique<CorotationalKinematics>(discretization,
                                                         section,
@@ -205,14 +224,12 @@ namespace Nacre
                     ExcMessage("Discretization/Tangent: 'frozen' is of the "
                                "co-rotational form; 'Kinematics = finite' has "
                                "the exact one only: choose 'symmetric'."));
-        AssertThrow(section.is_linear(),
-                    ExcMessage("Discretization/Kinematics: finite: it is for "
-                               "linear sections only."));
         refuse_blended_coupling(discretization.element(), section, options);
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
                                                   options.membrane_strain,
-                                                  options.tangent);
+                                                  options.tangent,
+                                                  states);
       }
     return std::make_unique<LinearKinematics>(discretization,
                                               section,

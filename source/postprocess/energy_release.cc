@@ -168,6 +168,10 @@ namespace Nacre
                 ExcMessage(where_ + "energy release rates and stress "
                                     "intensity factors are those of statics "
                                     "and of motions; modes have no size."));
+    AssertThrow(shell_.model.section.is_linear(),
+                ExcMessage(where_ +
+                           "the law of the section isn't linear; these "
+                           "quantities are for linear ones only."));
     AssertThrow(shell_.model.foundation.is_zero(),
                 ExcMessage(where_ + "lies a foundation, whose energy these "
                                     "quantities don't know."));

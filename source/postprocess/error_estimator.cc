@@ -30,7 +30,6 @@ namespace Nacre
     }
   } // namespace
 
-
   /** The residuals of one or two fields, and their products. */
   class ErrorEstimator::Assembly
   {
@@ -42,7 +41,8 @@ namespace Nacre
       , stresses_(discretization_,
                   estimator.parts_.section,
                   estimator.parts_.kinematics,
-                  displacements(fields))
+                  displacements(fields),
+                  fields.front().section_states)
       , weights_(discretization_.n_part_indices())
       , cell_values_(discretization_,
                      discretization_.element().full_quadrature(),
@@ -430,6 +430,9 @@ namespace Nacre
       const unsigned int n_sides = edge_.n_sides();
       const bool         coupled = estimator_.parts_.section.is_coupled();
       if (q == 0)
+        point_.set_states(
+          SectionStates::of_edge(fields_[0].section_states, edge_));
+      if (q == 0)
         for (unsigned int side = 0; side < n_sides; ++side)
           {
             auto &nodes = nodes_[side];
@@ -569,7 +572,6 @@ namespace Nacre
     std::vector<PrescribedRotation>        prescribed_;
     //@}
   };
-
 
   ErrorEstimator::ErrorEstimator(const Discretization &discretization,
                                  const ShellParts     &parts,

@@ -100,7 +100,8 @@ namespace Nacre
                        shell.section().layers(strains.membrane(0),
                                               strains.bending(0),
                                               strains.values().frame(0),
-                                              strains.values().point(0)));
+                                              strains.values().point(0),
+                                              strains.section_state(0)));
     });
     return Utilities::MPI::sum(value, discretization.communicator());
   }

@@ -75,7 +75,8 @@ namespace Nacre
     const auto      point   = strains_.values().point(q);
     const auto      eps     = strains_.membrane(q);
     const auto      rho     = strains_.bending(q);
-    const auto      answer  = section.response(eps, rho, frame, point);
+    const auto      state   = strains_.section_state(q);
+    const auto      answer  = section.response(eps, rho, frame, point, state);
     const auto      axes    = state_.model.result_axes.at(frame, point);
 
     PointResults r;
@@ -93,7 +94,7 @@ namespace Nacre
       r.stress[k] = stress(q, k - 1.);
     if (shear_)
       r.transverse_shear = axes.side * shear_->value(q);
-    r.layers = section.layers(eps, rho, frame, point);
+    r.layers = section.layers(eps, rho, frame, point, state);
     for (LayerState &layer : r.layers)
       for (double &height : layer.height)
         height *= axes.side;
@@ -126,6 +127,7 @@ namespace Nacre
                               strains_.bending(q),
                               axes.side * side,
                               frame,
-                              point));
+                              point,
+                              strains_.section_state(q)));
   }
 } // namespace Nacre

@@ -18,6 +18,7 @@ namespace Nacre
     , spread_(spread)
     , discretization_(state.discretization)
     , displacement_(state.displacement)
+    , section_states_(state.section_states)
     , u_(state.discretization.node_dofs().size())
   {
     set_points(points);
@@ -38,6 +39,7 @@ namespace Nacre
   void
   StrainValues::reinit(const CellPart &part)
   {
+    part_                 = part;
     const bool was_spread = is_spread_;
     is_spread_            = spread_ && part.is_cut();
     if (is_spread_)

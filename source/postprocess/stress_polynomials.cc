@@ -78,6 +78,7 @@ namespace Nacre
     void
     deform(const ShellCellValues        &values,
            const SectionLaw             &section,
+           const SectionStates::Points  &states,
            const dealii::Vector<double> &u,
            FiniteCell<double>           &cell)
     {
@@ -86,7 +87,8 @@ namespace Nacre
         sections.emplace_back(section,
                               values.frame(q),
                               values.point(q),
-                              values.frame(q).j0);
+                              values.frame(q).j0,
+                              states[q]);
       NodeVectors<double> nodes;
       extract_nodes(values, u, nodes);
       cell.reinit(values, sections, nodes);
@@ -97,7 +99,8 @@ namespace Nacre
     const Discretization                    &discretization,
     const SectionLaw                        &section,
     const KinematicsOptions                 &kinematics,
-    const std::vector<const Displacement *> &displacements)
+    const std::vector<const Displacement *> &displacements,
+    SectionStates *const                     states)
     : n_displacements_(displacements.size())
     , n_nodes_(discretization.scalar_fe().n_dofs_per_cell())
     , nodal_(std::size_t(discretization.n_part_indices()) * n_displacements_ *
@@ -124,7 +127,12 @@ namespace Nacre
             for (unsigned int i = 0; i < u.size(); ++i)
               u[i] = (*displacements[d])(dofs[i]);
             if (!is_linear)
-              deform(values, section, u, deformed);
+              deform(values,
+                     section,
+                     states != nullptr ? states->of_cell(part, values) :
+                                         SectionStates::Points(),
+                     u,
+                     deformed);
             Vector3 *nodal = &nodal_[begin(part, d)];
             for (unsigned int q = 0; q < quadrature.size(); ++q)
               {

@@ -187,7 +187,8 @@ namespace Nacre
         const auto answer = state_.section().response(strains.membrane(q),
                                                       strains.bending(q),
                                                       values.frame(q),
-                                                      values.point(q));
+                                                      values.point(q),
+                                                      strains.section_state(q));
         samples.positions.push_back(values.point(q));
         samples.moments.emplace_back(symmetrize(
           ShellStrain::resultant_tensor(values.frame(q), answer.moment)));

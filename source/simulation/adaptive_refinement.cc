@@ -207,7 +207,8 @@ namespace Nacre
     ErrorEstimate        result;
     const ErrorEstimator::Field u{&solution.displacement,
                                   true,
-                                  &solution.actions};
+                                  &solution.actions,
+                                  &solution.assembly.section_states()};
     if (!goal_index_)
       {
         const auto indicators = estimator.estimate(u);

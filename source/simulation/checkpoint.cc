@@ -30,7 +30,7 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 6";
+    const std::string layout = "nacre checkpoint 7";
 
     std::array<Vector *, 3>
     vectors_of(CheckpointData &data)
@@ -243,6 +243,7 @@ namespace Nacre
         boost::archive::binary_oarchive archive(content);
         archive &layout                &copy.problem;
         numbers_of(archive, copy);
+        archive &copy.section_states;
         CellValues(discretization_).write(archive, ghosted);
         out << content.str();
       });
@@ -298,6 +299,11 @@ namespace Nacre
                                ".checkpoint' is of another problem: " +
                                complaint + "."));
         numbers_of(archive, data);
+        std::vector<SectionStates::Record> states;
+        archive                           &states;
+        data.section_states.insert(data.section_states.end(),
+                                   states.begin(),
+                                   states.end());
         values.read(archive, vectors_of(data), where_ + ": '" + file);
       }
     catch (const boost::archive::archive_exception &error)
@@ -331,7 +337,8 @@ namespace Nacre
       for (const unsigned int writer : writers)
         {
           // A rank without cells needs the numbers of the path, too.
-          if (values.is_complete() && writer != writers.front())
+          if (values.is_complete() && writer != writers.front() &&
+              data.section_states.empty())
             break;
           read_file(writer, data, values, judge);
         }

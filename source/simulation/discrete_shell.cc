@@ -120,6 +120,7 @@ namespace Nacre
     const SolverParameters &chosen = problem_.solver;
     const bool              can_coarsen =
       MultigridSolver::has_coarser_mesh(discretization_) &&
+      problem_.model.section.n_state_variables() == 0 &&
       !discretization_.has_tip_functions();
     if (chosen.type == SolverType::multigrid &&
         discretization_.has_tip_functions())

@@ -5,6 +5,9 @@
 
 #include <deal.II/base/geometry_info.h>
 
+#include <map>
+#include <utility>
+
 namespace Nacre
 {
   namespace
@@ -39,10 +42,17 @@ namespace Nacre
   DisplacementTransfer::DisplacementTransfer(
     const Discretization              &discretization,
     const std::vector<const Vector *> &fields,
+    const SectionStates               &states,
     const std::vector<bool>           &marked)
     : marked_(marked)
     , cells_(discretization.triangulation().n_active_cells())
   {
+    std::map<std::pair<CellId::binary_type, unsigned int>,
+             SectionStates::Record>
+      of_rules;
+    for (auto &record : states.records(discretization))
+      if (record.is_of_rule())
+        of_rules.emplace(std::make_pair(record.cell, record.part), record);
     const auto                          &node_dofs = discretization.node_dofs();
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     for (const CellPart &part : discretization.owned_parts())
@@ -52,6 +62,11 @@ namespace Nacre
         if (part.is_cut())
           for (unsigned int i = 0; i < part.polygon().n_vertices(); ++i)
             of_cell.back().vertices.push_back(part.polygon().vertex(i));
+        const auto of_rule =
+          of_rules.find({part.cell->id().to_binary<dim>(),
+                         part.data != nullptr ? part.data->number : 0});
+        if (of_rule != of_rules.end())
+          of_cell.back().states.push_back(of_rule->second);
         discretization.get_dof_indices(part, dofs);
         for (const Vector *const field : fields)
           {
@@ -95,6 +110,35 @@ namespace Nacre
       });
   }
 
+  Point<dim>
+  DisplacementTransfer::place_before(const Source     &source,
+                                     const Point<dim> &unit)
+  {
+    return source.child == no_child ?
+             unit :
+             GeometryInfo<dim>::child_to_cell_coordinates(unit, source.child);
+  }
+
+  const DisplacementTransfer::PartFields *
+  DisplacementTransfer::fields_around(const Discretization &discretization,
+                                      const CellPart       &part) const
+  {
+    const auto   kind   = discretization.scalar_fe().reference_cell();
+    const Source source = sources_[part.cell->active_cell_index()];
+    std::vector<std::vector<Point<dim>>> polygons;
+    for (const PartFields &fields : cells_[source.cell])
+      polygons.push_back(fields.vertices);
+    const unsigned int around =
+      part_around(kind,
+                  polygons,
+                  place_before(source,
+                               part.is_cut() ? part.polygon().inner_point() :
+                                               kind.barycenter<dim>()));
+    return around == numbers::invalid_unsigned_int ?
+             nullptr :
+             &cells_[source.cell][around];
+  }
+
   DisplacementTransfer::Vector
   DisplacementTransfer::field_on(const Discretization &discretization,
                                  const unsigned int    k) const
@@ -102,34 +146,20 @@ namespace Nacre
     const IndexSet    &owned     = discretization.locally_owned_dofs();
     const auto        &fe        = discretization.scalar_fe();
     const auto        &node_dofs = discretization.node_dofs();
-    const auto         kind      = fe.reference_cell();
     const unsigned int n_nodes   = fe.n_dofs_per_cell();
     Vector             result(owned, discretization.communicator());
     std::vector<types::global_dof_index> dofs(node_dofs.size());
     for (const CellPart &part : discretization.owned_parts())
       {
-        const Source source = sources_[part.cell->active_cell_index()];
-        const auto   before = [&](const Point<dim> &unit) {
-          return source.child == no_child ?
-                     unit :
-                     GeometryInfo<dim>::child_to_cell_coordinates(unit,
-                                                                source.child);
-        };
-        std::vector<std::vector<Point<dim>>> polygons;
-        for (const PartFields &fields : cells_[source.cell])
-          polygons.push_back(fields.vertices);
-        const unsigned int around =
-          part_around(kind,
-                      polygons,
-                      before(part.is_cut() ? part.polygon().inner_point() :
-                                             kind.barycenter<dim>()));
-        if (around == numbers::invalid_unsigned_int)
+        const PartFields *const fields = fields_around(discretization, part);
+        if (fields == nullptr)
           continue; // All was removed: a sliver, which follows another part.
-        const auto &values = cells_[source.cell][around].values[k];
+        const Source source = sources_[part.cell->active_cell_index()];
+        const auto  &values = fields->values[k];
         discretization.get_dof_indices(part, dofs);
         for (unsigned int a = 0; a < n_nodes; ++a)
           {
-            const Point<dim> unit = before(fe.unit_support_point(a));
+            const auto unit = place_before(source, fe.unit_support_point(a));
             for (unsigned int c = 0; c < spacedim; ++c)
               {
                 const auto dof = dofs[node_dofs[spacedim * a + c]];
@@ -145,5 +175,27 @@ namespace Nacre
     result.compress(VectorOperation::insert);
     discretization.node_constraints().distribute(result);
     return result;
+  }
+
+  void
+  DisplacementTransfer::set_states(const Discretization &discretization,
+                                   SectionStates        &states) const
+  {
+    std::vector<SectionStates::Record> records;
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        const PartFields *const fields = fields_around(discretization, part);
+        if (fields == nullptr || fields->states.empty())
+          continue;
+        const Source source = sources_[part.cell->active_cell_index()];
+        records.push_back(fields->states.front());
+        records.back().cell = part.cell->id().to_binary<dim>();
+        records.back().part = part.data != nullptr ? part.data->number : 0;
+        for (Point<dim> &unit : records.back().points)
+          if (source.child != no_child)
+            unit =
+              GeometryInfo<dim>::cell_to_child_coordinates(unit, source.child);
+      }
+    states.take(discretization, records);
   }
 } // namespace Nacre

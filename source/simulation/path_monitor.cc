@@ -174,7 +174,7 @@ namespace Nacre
     if (options_.write_vtu && is_due)
       write_fields(state, shell);
     if (checkpoint_steps_ > 0 && state.step % checkpoint_steps_ == 0)
-      save(state);
+      save(state, shell);
   }
 
   void
@@ -183,7 +183,7 @@ namespace Nacre
     if (options_.write_vtu && written_.written_fields.count(state.step) == 0)
       write_fields(state, shell);
     if (checkpoint_steps_ > 0 && !has_saved_)
-      save(state);
+      save(state, shell);
   }
 
   void
@@ -256,9 +256,11 @@ namespace Nacre
   }
 
   void
-  PathMonitor::save(const PathState &state)
+  PathMonitor::save(const PathState &state, const SolvedShell &shell)
   {
     written_.state = state;
+    written_.section_states =
+      shell.section_states->records(shell.discretization);
     checkpoint_.save(written_);
     has_saved_ = true;
   }

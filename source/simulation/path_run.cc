@@ -215,6 +215,9 @@ namespace Nacre
         // A restart that is refused leaves all files as they were.
         recorder.start_files(true);
         monitor.resume(*data, problem);
+        stepped_->shell.assembly().section_states().take(
+          stepped_->shell.discretization(),
+          data->section_states);
         return data->state;
       }
     const PathState state =
@@ -374,6 +377,7 @@ namespace Nacre
                        std::vector<const TrilinosWrappers::MPI::Vector *>{
                          &solved.shell().displacement,
                          solved.shell().velocity},
+                       stepped_->shell.assembly().section_states(),
                        *marked);
     }
     assembly_seconds_ += stepped_->system.assembly_seconds();
@@ -393,6 +397,8 @@ namespace Nacre
          << discretization.triangulation().n_global_active_cells() << " cells, "
          << discretization.n_dofs() << " dofs";
     log_.progress() << text.str() << std::endl;
+    transfer->set_states(discretization,
+                         stepped_->shell.assembly().section_states());
     state.motion.u              = transfer->field_on(discretization, 0);
     state.motion.v              = transfer->field_on(discretization, 1);
     state.motion.a              = stepped_->system.owned_vector();

@@ -248,6 +248,46 @@ namespace Nacre
   }
 
   void
+  ProblemParameters::check_section(const ShellProblem &problem)
+  {
+    const SectionLaw     &section = problem.model.section;
+    const PathParameters &path    = problem.path;
+    if (section.is_linear())
+      return;
+    const std::string is_not = " and the law of this section isn't linear";
+    AssertThrow(!seeks_modes(path.type),
+                ExcMessage("Analysis/Type: '" + name_of(path.type) +
+                           "' is for linear sections only," + is_not +
+                           "; choose static or another path."));
+    AssertThrow(problem.model.kinematics.model == KinematicsModel::finite,
+                ExcMessage("Discretization/Kinematics: '" +
+                           name_of(problem.model.kinematics.model) +
+                           "' is for linear sections only," + is_not +
+                           "; choose finite."));
+    AssertThrow(!path.is_dynamic() ||
+                  path.scheme != TimeScheme::energy_momentum,
+                ExcMessage("Analysis/Scheme: 'energy momentum' conserves the "
+                           "energy of linear sections only," +
+                           is_not + "; choose another scheme."));
+    AssertThrow(!problem.growth.is_on(),
+                ExcMessage("Growth/Tips: cuts grow in linear sections only," +
+                           is_not + "; leave it empty."));
+    if (section.n_state_variables() == 0)
+      return;
+    AssertThrow(path.start_from.empty(),
+                ExcMessage("Analysis/Start from: what this section remembers "
+                           "doesn't come from another run; leave it empty, or "
+                           "go on with --restart."));
+    AssertThrow(!path.branches.has_several(),
+                ExcMessage("Analysis/Switch branch: this section remembers one "
+                           "path; name a single branch."));
+    AssertThrow(problem.solver.type != SolverType::multigrid,
+                ExcMessage("Linear solver/Solver: the coarse levels of "
+                           "'multigrid' don't know what this section "
+                           "remembers; choose auto or direct."));
+  }
+
+  void
   ProblemParameters::check(const ShellProblem &problem)
   {
     const KinematicsOptions &options = problem.model.kinematics;
@@ -312,6 +352,7 @@ namespace Nacre
                   "Discretization/Assembly: 'reference' knows no cells "
                   "that cuts (Cuts/Cuts) divide; choose 'fast'."));
     check_tips(problem);
+    check_section(problem);
     AssertThrow((!problem.path.is_linear() &&
                  !seeks_modes(problem.path.type)) ||
                   !problem.model.foundation.is_nonlinear(),

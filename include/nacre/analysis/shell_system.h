@@ -90,6 +90,13 @@ namespace Nacre
       has_tangent_   = false;
     }
 
+    /**
+     * A step to the @p time ends at the displacement @p u: a section with
+     * memory takes note of it, for which the time is set. Collective.
+     */
+    void
+    accept_step(const Vector &u, const double time);
+
     /** Loads and prescribed rotations at the times set. */
     const ShellActions &
     actions() const

@@ -6,6 +6,7 @@
 
 #include <nacre/forms/mass_terms.h>
 #include <nacre/forms/rotation_conditions.h>
+#include <nacre/forms/section_states.h>
 #include <nacre/forms/shell_terms.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -22,7 +23,8 @@ namespace Nacre
    * edges and boundary edges that assembles their tangent, residual and
    * energies. It holds no time: functions that loads or prescribed rotations
    * matter to take ShellActions, or take both at t = 0 with the factor 1, as
-   * linear analyses do.
+   * linear analyses do. Of a section with memory it has the states at the start
+   * of a step, which whoever accepts the step replaces by those at its end.
    */
   class Assembly
   {
@@ -56,6 +58,20 @@ namespace Nacre
     {
       return rotation_conditions_;
     }
+
+    /** Of the section: of all points, at the start of a step. */
+    SectionStates &
+    section_states() const
+    {
+      return *section_states_;
+    }
+
+    /**
+     * Make those the states at the end of a step at the ghosted displacement
+     * @p u; collective. Nothing is done for sections without memory.
+     */
+    void
+    update_section_states(const Vector &u, const ShellActions &actions) const;
 
     /** Set up the pattern of @p matrix, neighbours of cells included. */
     void
@@ -185,6 +201,8 @@ namespace Nacre
 
     const Discretization &discretization_;
     EdgePenalty           penalty_;
+    /** Kinematics refer to it. */
+    const std::unique_ptr<SectionStates> section_states_;
     /** Each loop has a copy. */
     const std::unique_ptr<const Kinematics> kinematics_;
     const RotationConditions                rotation_conditions_;

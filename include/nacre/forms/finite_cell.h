@@ -14,13 +14,15 @@ namespace Nacre
    * Strains, resultants and internal forces of a cell with exact finite
    * rotations, at the points of one rule:
    *
-   *   W = sum_q w_q (1/2 E : n + 1/2 kappa : m),
+   *   W = sum_q w_q w(E, kappa),
    *
-   * E the Green strain (GreenStrain), sampled at the tying points and
-   * interpolated to the points q, and kappa the exact change of curvature.
-   * The forces are the exact gradient of W.
+   * w the section's energy, 1/2 E : n + 1/2 kappa : m of linear laws, E the
+   * Green strain (GreenStrain), sampled at the tying points and interpolated to
+   * the points q, and kappa the exact change of curvature. The forces are the
+   * exact gradient of W.
    *
-   * Templated on the scalar, so that tests can take complex steps.
+   * Templated on the scalar, so that tests can take complex steps; laws that
+   * aren't linear know real numbers only.
    */
   template <typename Number>
   class FiniteCell
@@ -29,14 +31,15 @@ namespace Nacre
     using Vector = Tensor<1, spacedim, Number>;
 
     /**
-     * @param sections at the points, area and weight included
+     * @param sections at the points, area and weight included; they take the
+     *   strains
      * @param bends whether these points have bending energy
      */
     void
-    reinit(const ShellCellValues            &values,
-           const std::vector<SectionBlocks> &sections,
-           const NodeVectors<Number>        &u,
-           const bool                        bends = true)
+    reinit(const ShellCellValues      &values,
+           std::vector<SectionBlocks> &sections,
+           const NodeVectors<Number>  &u,
+           const bool                  bends = true)
     {
       bends_ = bends;
       membrane_.reinit(values, u);
@@ -60,13 +63,13 @@ namespace Nacre
      * resultants, and StepDifferences' frames. The forces then do the work
      * W(end) - W(start) on the step's displacement: E is quadratic in it, so
      * that its difference is dE at the mean, and Delta(kappa) is that of
-     * StepDifferences::mean_frame().
+     * StepDifferences::mean_frame(). Of linear laws only.
      */
     void
-    take_means(const ShellCellValues            &values,
-               const std::vector<SectionBlocks> &sections,
-               const FiniteCell<Number>         &start,
-               const FiniteCell<Number>         &end)
+    take_means(const ShellCellValues      &values,
+               std::vector<SectionBlocks> &sections,
+               const FiniteCell<Number>   &start,
+               const FiniteCell<Number>   &end)
     {
       bends_            = start.bends_;
       membrane_strains_ = start.membrane_strains_;
@@ -160,14 +163,15 @@ namespace Nacre
   private:
     /** n and m at the points, and what n does to the tying points. */
     void
-    set_resultants(const ShellCellValues            &values,
-                   const std::vector<SectionBlocks> &sections)
+    set_resultants(const ShellCellValues      &values,
+                   std::vector<SectionBlocks> &sections)
     {
       const auto &tying = values.tying();
       forces_.resize(membrane_strains_.size());
       moments_.assign(membrane_strains_.size(), Voigt<Number>());
       for (unsigned int q = 0; q < forces_.size(); ++q)
         {
+          sections[q].evaluate(membrane_strains_[q], bending_strains_[q]);
           forces_[q] =
             sections[q].force(membrane_strains_[q], bending_strains_[q]);
           if (bends_)

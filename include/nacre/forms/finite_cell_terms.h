@@ -16,7 +16,8 @@ namespace Nacre
    * of the dofs: the chain from FiniteCell to the matrix.
    *
    * With the rows B_q[6][i] of E and kappa at a point, C_q[6][6] = [A B; B^T D]
-   * of the section and GreenStrain's second variations, the tangent is
+   * the tangent of the section at these strains and GreenStrain's second
+   * variations, the tangent is
    *
    *   K = sum_q B_q^T C_q B_q + sum_g (z_g q_g^T + q_g z_g^T)
    *       + sum_k N,a n^ab N,b 1
@@ -30,10 +31,12 @@ namespace Nacre
   class FiniteCellTerms
   {
   public:
+    /** @param states of the section; null: all are at rest */
     FiniteCellTerms(const Discretization &discretization,
                     const SectionLaw     &section,
                     const MembraneStrain  membrane_strain,
-                    const TangentType     tangent_type);
+                    const TangentType     tangent_type,
+                    SectionStates        *states);
 
     const ShellCellValues &
     values() const
@@ -86,7 +89,10 @@ namespace Nacre
 
     /** Set cell of both rules from u_, or of the step of ends_u_. */
     void
-    evaluate(CellPoints &points, const double share, const bool in_step);
+    evaluate(const CellPart &part,
+             CellPoints     &points,
+             const double    share,
+             const bool      in_step);
 
     /** What both do at the points of both rules. */
     void
@@ -116,6 +122,7 @@ namespace Nacre
 
     const SectionLaw &section_;
     const bool        is_stress_only_;
+    SectionStates    *states_;
     Instant           instant_;
     CellPoints        full_points_;
     /** p x p points, for reduced integration only. */

@@ -49,6 +49,10 @@ namespace Nacre
    *   c = B(nu0, nu0), is the moment nu0 . m . nu0 of m = B^T E + D kappa. E is
    *   the tied strain, since the displacements' own would bring membrane
    *   locking back through the edges; only sections that couple have it.
+   *   A law that isn't linear answers m at E and kappa itself, with D and B its
+   *   tangent there: dm_nn = -d(h^ab phi,ab . t) + c : dE with h and c held.
+   *   hessian() leaves out what h and c change by, third derivatives of the
+   *   energy w. D of the penalty is that at rest always.
    * - lambda = (j / j0) / |e|, e = dx/ds: the stretch across the edge, which is
    *   nu . phi,a nu0^a. The rotation's work conjugate is lambda m_nn.
    *
@@ -76,7 +80,7 @@ namespace Nacre
       std::array<std::vector<Number>, 3> rows;
       /** Components of the undeformed unit tangent d0. */
       std::array<double, 2> tau;
-      /** Y0 . t0 with sigma (force). */
+      /** Y0 . t0 with sigma (force); of linear laws. */
       double initial_moment;
       /** c with sigma: only set for sections that couple. */
       Voigt<> coupling;
@@ -104,6 +108,13 @@ namespace Nacre
       instant_ = instant;
     }
 
+    /** Those of the points of both sides, for the edge to come. */
+    void
+    set_states(const std::array<SectionStates::Points, 2> &states)
+    {
+      states_ = states;
+    }
+
     /**
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
@@ -125,11 +136,9 @@ namespace Nacre
       double stiffness = 0.;
       for (unsigned int s = 0; s < n_sides_; ++s)
         {
-          Side &side = sides_[s];
-          stiffness += reinit_side(edge, s, q, section, u[s]);
-          if (membrane != nullptr)
-            side.moment +=
-              side.coupling * (*membrane)[s].tied_strain(edge.tying(s), q);
+          const TiedGreenStrain<Number> *const strain =
+            membrane != nullptr ? &(*membrane)[s] : nullptr;
+          stiffness += reinit_side(edge, s, q, section, u[s], strain);
         }
       fluxes_    = edge_fluxes(edge, q, stiffness, penalty);
       stiffness_ = stiffness;
@@ -330,19 +339,31 @@ namespace Nacre
   private:
     /** Returns the share of the side in D. */
     double
-    reinit_side(const ShellEdgeValues     &edge,
-                const unsigned int         s,
-                const unsigned int         q,
-                const SectionLaw          &section,
-                const NodeVectors<Number> &u)
+    reinit_side(const ShellEdgeValues               &edge,
+                const unsigned int                   s,
+                const unsigned int                   q,
+                const SectionLaw                    &section,
+                const NodeVectors<Number>           &u,
+                const TiedGreenStrain<Number> *const membrane)
     {
-      Side        &side   = sides_[s];
-      const auto  &frame  = edge.frame(s, q);
-      const auto  &shapes = edge.shapes(s);
-      const double sigma  = edge.sigma(s, q);
-      const auto   dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
-      const SectionBlocks blocks(section, frame, edge.point(q, s));
-      const Voigt<>       H_nu = blocks.D * dyad;
+      Side         &side   = sides_[s];
+      const auto   &frame  = edge.frame(s, q);
+      const auto   &shapes = edge.shapes(s);
+      const double  sigma  = edge.sigma(s, q);
+      const auto    dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
+      SectionBlocks blocks(section, frame, edge.point(q, s), 1., states_[s][q]);
+      const Voigt<Number> E = membrane != nullptr ?
+                                membrane->tied_strain(edge.tying(s), q) :
+                                Voigt<Number>();
+      Voigt<Number>       kappa;
+      if (!section.is_linear())
+        {
+          kappa =
+            CorotationalStrain::bending(frame,
+                                        deformed_frame(frame, shapes, q, u));
+          blocks.evaluate(E, kappa);
+        }
+      const Voigt<> H_nu = blocks.D * dyad;
       if (blocks.is_coupled)
         side.coupling = sigma * (blocks.B * dyad);
       const auto d0 =
@@ -369,6 +390,10 @@ namespace Nacre
           side.Y += side.rows[2][a] * u[a];
         }
       deform(side, frame, displacement_gradient(shapes, q, u), sigma);
+      if (!section.is_linear())
+        side.moment = sigma * (dyad * blocks.moment(E, kappa));
+      else if (membrane != nullptr)
+        side.moment += side.coupling * E;
       if (section.has_initial_strain())
         side.moment -= initial_moment(edge, s, q, section, instant_);
       const std::array<Number, 2> nu_con = {
@@ -380,7 +405,11 @@ namespace Nacre
           side.rows[0][a] = side.tau[0] * dN[0] + side.tau[1] * dN[1];
           side.rows[1][a] = nu_con[0] * dN[0] + nu_con[1] * dN[1];
         }
-      return side.mean_factor * (dyad * H_nu);
+      const Voigt<> H_rest =
+        section.is_linear() ?
+          H_nu :
+          section.stiffness(frame, edge.point(q, s)).bending * dyad;
+      return side.mean_factor * (dyad * H_rest);
     }
 
     /** The deformed frame of the side, lambda and m_nn. */
@@ -524,9 +553,11 @@ namespace Nacre
     EdgeFluxes          fluxes_;
     double              stiffness_ = 0.;
     Instant             instant_;
-    Number              jump_          = 0.;
-    Number              mean_          = 0.;
-    double              initial_angle_ = 0.;
+    /** By side. */
+    std::array<SectionStates::Points, 2> states_;
+    Number                               jump_          = 0.;
+    Number                               mean_          = 0.;
+    double                               initial_angle_ = 0.;
 
     Tensor<1, spacedim> prescribed_tangent_;
     Vector              prescribed_normal_;

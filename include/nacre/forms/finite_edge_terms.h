@@ -29,8 +29,13 @@ namespace Nacre
   class FiniteEdgeTerms
   {
   public:
-    /** @param tangent_type of FiniteKinematics */
-    FiniteEdgeTerms(const SectionLaw &section, const TangentType tangent_type);
+    /**
+     * @param tangent_type of FiniteKinematics
+     * @param states of the section; null: all are at rest
+     */
+    FiniteEdgeTerms(const SectionLaw &section,
+                    const TangentType tangent_type,
+                    SectionStates    *states);
 
     /** Of initial strains. */
     void
@@ -135,6 +140,7 @@ namespace Nacre
     const SectionLaw                  &section_;
     const bool                         limits_gap_;
     const bool                         is_stress_only_;
+    SectionStates                     *states_;
     FiniteEdgePoint<double>            point_;
     std::array<NodeVectors<double>, 2> u_;
     NodeVectors<double>                force_;

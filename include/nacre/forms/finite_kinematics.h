@@ -22,13 +22,20 @@ namespace Nacre
      *   but for edges far from their prescribed rotation, which Newton's method
      *   then reaches from further away (FiniteEdgePoint::hessian()); stress:
      *   the part of the Hessian that is linear in the forces and moments
+     * @param states of the section; null: all are at rest. The Hessian leaves
+     *   out the change of the section's tangent at edges (FiniteEdgePoint).
      */
     FiniteKinematics(const Discretization &discretization,
                      const SectionLaw     &section,
                      const MembraneStrain  membrane_strain,
-                     const TangentType     tangent_type)
-      : cell_terms_(discretization, section, membrane_strain, tangent_type)
-      , edge_terms_(section, tangent_type)
+                     const TangentType     tangent_type,
+                     SectionStates *const  states = nullptr)
+      : cell_terms_(discretization,
+                    section,
+                    membrane_strain,
+                    tangent_type,
+                    states)
+      , edge_terms_(section, tangent_type, states)
     {}
 
     std::unique_ptr<Kinematics>

@@ -18,9 +18,12 @@
 
 namespace Nacre
 {
+  class SectionStates;
+
   /** Parts of the stored energy (force times length). */
   struct Energies
   {
+    /** Of nonlinear sections: all but 1/2 kappa : m. */
     double membrane = 0.;
     double bending  = 0.;
     /** Penalty and consistency terms of interior and boundary edges. */
@@ -191,11 +194,16 @@ namespace Nacre
     //@}
   };
 
-  /** The alternative that @p options name. */
+  /**
+   * The alternative that @p options name; throws where it has no terms for the
+   * section.
+   * @param states of the section, which must live as long; null: at rest
+   */
   std::unique_ptr<Kinematics>
   make_kinematics(const Discretization    &discretization,
                   const SectionLaw        &section,
-                  const KinematicsOptions &options);
+                  const KinematicsOptions &options,
+                  SectionStates           *states = nullptr);
 } // namespace Nacre
 
 #endif

@@ -58,6 +58,8 @@ namespace Nacre
       bool has_data = true;
       /** The loads and rotations at its time; null: those of Instant(). */
       const ShellActions *actions = nullptr;
+      /** Of a section with memory; null: at rest. */
+      SectionStates *section_states = nullptr;
     };
 
     /** Everything must stay alive; collective. */

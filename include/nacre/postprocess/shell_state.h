@@ -16,6 +16,7 @@ namespace Nacre
   class DisplacementConditions;
   class MassTerms;
   class Assembly;
+  class SectionStates;
   struct ModeValues;
   struct ShellActions;
 
@@ -28,6 +29,8 @@ namespace Nacre
     const TrilinosWrappers::MPI::Vector &displacement;
     /** Of the section's initial strains; of modes: none. */
     Instant instant = {0., 0.};
+    /** Of a section with memory; null: all points are at rest. */
+    const SectionStates *section_states = nullptr;
 
     /** The section as stresses see it. */
     SectionAt

@@ -5,6 +5,7 @@
 #define nacre_postprocess_strain_values_h
 
 #include <nacre/discretization/shell_values.h>
+#include <nacre/forms/section_states.h>
 #include <nacre/postprocess/shell_state.h>
 
 #include <deal.II/lac/vector.h>
@@ -57,6 +58,16 @@ namespace Nacre
       return component(bending_, q);
     }
 
+    /** What the section remembers: that of the nearest point of the form. */
+    SectionState
+    section_state(const unsigned int q) const
+    {
+      return section_states_ == nullptr || section_states_->has_none() ?
+               SectionState() :
+               section_states_->nearest(part_,
+                                        values_->quadrature().get_points()[q]);
+    }
+
     /** The displacement (length). */
     Tensor<1, spacedim>
     displacement(const unsigned int q) const;
@@ -104,6 +115,8 @@ namespace Nacre
     bool                                 is_spread_ = false;
     const Discretization                &discretization_;
     const TrilinosWrappers::MPI::Vector &displacement_;
+    const SectionStates *const           section_states_;
+    CellPart                             part_;
     std::vector<types::global_dof_index> dofs_;
     std::optional<ShellCellValues>       values_;
     Vector<double>                       u_;

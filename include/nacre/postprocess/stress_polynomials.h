@@ -15,6 +15,8 @@
 
 namespace Nacre
 {
+  class SectionStates;
+
   /**
    * The stress resultants of displacements as polynomials of the reference
    * cell, on this rank's cells and their ghosts, or the parts of them: the
@@ -37,11 +39,13 @@ namespace Nacre
 
     /**
      * @param displacements ghosted (length)
+     * @param states of a section with memory; null: at rest
      */
     StressPolynomials(const Discretization                    &discretization,
                       const SectionLaw                        &section,
                       const KinematicsOptions                 &kinematics,
-                      const std::vector<const Displacement *> &displacements);
+                      const std::vector<const Displacement *> &displacements,
+                      SectionStates *const states = nullptr);
 
     /** Values of a displacement's polynomials on a part: [vector][node]. */
     const Vector3 *

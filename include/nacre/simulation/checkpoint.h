@@ -5,6 +5,7 @@
 #define nacre_simulation_checkpoint_h
 
 #include <nacre/analysis/path_analysis.h>
+#include <nacre/forms/section_states.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/problem_record.h>
 
@@ -23,6 +24,8 @@ namespace Nacre
     PathState     state;
     /** The fields written so far, by their step. */
     FieldRecords written_fields;
+    /** Of a section with memory: what this rank knows, or, read, all of it. */
+    std::vector<SectionStates::Record> section_states;
   };
 
   /**
@@ -35,7 +38,8 @@ namespace Nacre
    * file holds the positions and values of the nodes of its cells, cell by cell
    * under the cell's CellId, which no partition changes: any number of ranks
    * can go on from it. Cells are dealt out along a curve, so that a rank finds
-   * its cells in a few neighbouring files and reads no others.
+   * its cells in a few neighbouring files and reads no others; but of sections
+   * with memory it reads all, since edges may be in the file of either cell.
    */
   class Checkpoint
   {

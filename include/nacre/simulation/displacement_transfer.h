@@ -5,6 +5,7 @@
 #define nacre_simulation_displacement_transfer_h
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/forms/section_states.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -17,7 +18,8 @@ namespace Nacre
    * same polynomials of the reference cells, on any ranks. A part of a cell
    * takes those of the part before in which its inner point lies. New nodes of
    * the geometry lie on the exact surface, so that the deformed surface changes
-   * by as much as the undeformed one does.
+   * by as much as the undeformed one does. Points of a section with memory take
+   * the states of the nearest points of the cell before.
    *
    * The steps, each collective: the constructor; Discretization's triangulation
    * is released; refine(); another Discretization takes it; field_on().
@@ -30,10 +32,12 @@ namespace Nacre
 
     /**
      * @param fields ghosted, such as displacements (length)
+     * @param states of the section; those of edges aren't carried on
      * @param marked cells to refine, by active cell index; those of this rank
      */
     DisplacementTransfer(const Discretization              &discretization,
                          const std::vector<const Vector *> &fields,
+                         const SectionStates               &states,
                          const std::vector<bool>           &marked);
 
     /** Refine the triangulation of the discretisation, now @p mesh. */
@@ -44,6 +48,11 @@ namespace Nacre
     Vector
     field_on(const Discretization &discretization, const unsigned int k) const;
 
+    /** What @p states of the refined mesh begin with. */
+    void
+    set_states(const Discretization &discretization,
+               SectionStates        &states) const;
+
   private:
     /** The fields on a part of a cell. */
     struct PartFields
@@ -52,12 +61,14 @@ namespace Nacre
       std::vector<Point<dim>> vertices;
       /** By field, then 3 node + component. */
       std::vector<std::vector<double>> values;
+      /** Of the section, at the points of the cell's rule. */
+      std::vector<SectionStates::Record> states;
 
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &vertices &values;
+        archive &vertices &values &states;
       }
     };
 
@@ -72,6 +83,15 @@ namespace Nacre
       /** Which child of that cell; invalid: that cell itself. */
       unsigned int child;
     };
+
+    /** Place in the source's reference cell of a cell's @p unit. */
+    static Point<dim>
+    place_before(const Source &source, const Point<dim> &unit);
+
+    /** That part of the source which a part comes from; null: a sliver. */
+    const PartFields *
+    fields_around(const Discretization &discretization,
+                  const CellPart       &part) const;
 
     const std::vector<bool> marked_;
     std::vector<CellFields> cells_;

@@ -108,7 +108,7 @@ namespace Nacre
     write_fields(const PathState &state, const SolvedShell &shell);
 
     void
-    save(const PathState &state);
+    save(const PathState &state, const SolvedShell &shell);
 
     const MPI_Comm              communicator_;
     const OutputOptions         options_;

@@ -141,6 +141,10 @@ namespace Nacre
     static void
     check(const ShellProblem &problem);
 
+    /** What there is for sections whose law isn't linear, or has a memory. */
+    static void
+    check_section(const ShellProblem &problem);
+
     /** What the tips of cuts may have functions in. */
     static void
     check_tips(const ShellProblem &problem);

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// Finite rotations with a section whose law isn't linear: forces are the
+// gradient of the energy, the tangent is symmetric and exact but for the third
+// derivatives of the section's energy at edges that bend.
+
+#include "finite_shell.h"
+#include "power_section.h"
+
+#include <random>
+
+/** A law of a linear one, conditions and loads, one object at a time. */
+template <typename Section>
+struct PowerParameters : NoParameters
+{
+  PowerParameters(const double beta, const bool has_memory = false)
+    : section(beta, has_memory)
+  {
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(
+      section_text(100., 0.3, 0.2));
+    ParameterAcceptor::parse_all_parameters();
+    section.prepare({});
+  }
+
+  PowerSection<Section> section;
+  BoundaryConditions    conditions;
+  Loads                 loads;
+};
+
+using Isotropic = PowerParameters<LinearElasticSection>;
+
+template <typename AnyParameters>
+Assembly
+make_assembly(const Discretization &discretization,
+              const AnyParameters  &parameters)
+{
+  return Assembly(discretization,
+                  ShellParts(parameters.section,
+                             parameters.conditions,
+                             parameters.loads,
+                             finite(MembraneStrain::tied),
+                             7.));
+}
+
+/** Of order one, and noise; hanging nodes follow. */
+TrilinosVector
+direction(const Discretization &discretization, const unsigned int seed)
+{
+  auto                                   v = zero_vector(discretization);
+  std::mt19937                           generator(seed);
+  std::uniform_real_distribution<double> noise(-1., 1.);
+  for (unsigned int i = 0; i < v.size(); ++i)
+    v(i) = noise(generator);
+  v.compress(VectorOperation::insert);
+  discretization.node_constraints().distribute(v);
+  return v;
+}
+
+/** By central differences of the order 8 along @p v. */
+template <typename Value>
+Value
+derivative(const TrilinosVector                               &u,
+           const TrilinosVector                               &v,
+           const std::function<Value(const TrilinosVector &)> &function)
+{
+  constexpr double                h = 4e-3;
+  constexpr std::array<double, 4> weights{
+    {4. / 5., -1. / 5., 4. / 105., -1. / 280.}};
+  Value sum = function(u);
+  sum *= 0.;
+  for (unsigned int k = 0; k < weights.size(); ++k)
+    for (const double sign : {1., -1.})
+      {
+        TrilinosVector place(u);
+        place.add(sign * (k + 1) * h, v);
+        Value value = function(place);
+        value *= sign * weights[k] / h;
+        sum += value;
+      }
+  return sum;
+}
+
+TrilinosVector
+force_at(const Assembly &assembly, const TrilinosVector &u)
+{
+  TrilinosVector force(u);
+  assembly.residual(u, force);
+  return force;
+}
+
+void
+test_gradient(const std::string    &name,
+              const Discretization &discretization,
+              const Assembly       &assembly,
+              const TrilinosVector &u)
+{
+  const auto force = force_at(assembly, u);
+  double     error = 0., scale = 0.;
+  for (unsigned int seed = 1; seed <= 3; ++seed)
+    {
+      const auto   v    = direction(discretization, seed);
+      const double work = force * v;
+      error =
+        std::max(error,
+                 std::abs(
+                   derivative<double>(u,
+                                      v,
+                                      [&](const auto &w) {
+                                        return assembly.energies(w).total();
+                                      }) -
+                   work));
+      scale = std::max(scale, std::abs(work));
+    }
+  check_below(name + "force is the gradient of the energy",
+              error / scale,
+              1e-10);
+}
+
+/** |K v - dF(v)| / |dF(v)|, and whether K is symmetric. */
+double
+tangent_error(const std::string    &name,
+              const Discretization &discretization,
+              const Assembly       &assembly,
+              const TrilinosVector &u)
+{
+  const auto &constraints = discretization.node_constraints();
+  const auto  matrix =
+    dense_tangent(discretization, assembly, u, constraints).first;
+  FullMatrix<double> transposed(matrix);
+  transposed.copy_transposed(matrix);
+  check_below(name + "symmetry of the tangent",
+              relative_difference(matrix, transposed),
+              1e-12);
+  const auto v = direction(discretization, 5);
+  const auto exact =
+    derivative<TrilinosVector>(u, v, [&](const TrilinosVector &w) {
+      return force_at(assembly, w);
+    });
+  // Forces of hanging nodes are those of the nodes that they follow.
+  const auto free_entries = [&](const auto &full) {
+    Vector<double> result(full.size());
+    for (unsigned int i = 0; i < full.size(); ++i)
+      if (!constraints.is_constrained(i))
+        result[i] += full(i);
+      else
+        for (const auto &[j, weight] : *constraints.get_constraint_entries(i))
+          result[j] += weight * full(i);
+    return result;
+  };
+  Vector<double> found(v.size());
+  for (unsigned int i = 0; i < v.size(); ++i)
+    for (unsigned int j = 0; j < v.size(); ++j)
+      if (!constraints.is_constrained(i) && !constraints.is_constrained(j))
+        found[i] += matrix(i, j) * v(j);
+  const Vector<double> expected = free_entries(exact);
+  found -= expected;
+  return found.l2_norm() / expected.l2_norm();
+}
+
+/** A creased and curved mesh, hanging nodes, opposite orientations. */
+void
+test_difficult_mesh(const double beta)
+{
+  const Isotropic parameters(beta);
+  for (const unsigned int degree : {2, 3})
+    {
+      const auto discretization =
+        make_discretization(difficult_mesh(true), degree);
+      const auto assembly = make_assembly(*discretization, parameters);
+      auto       u        = interpolate(*discretization, some_field);
+      u.add(0.05, direction(*discretization, 3));
+      const std::string name = "p = " + std::to_string(degree) + ": ";
+      test_gradient(name, *discretization, assembly, u);
+      const double missing = tangent_error(name, *discretization, assembly, u);
+      check_above(name + "third derivatives that edges leave out",
+                  missing,
+                  1e-5);
+      check_below(name + "rigid motion",
+                  relative_force(*discretization,
+                                 assembly,
+                                 rigid_motion(Vector3{{1.9, -1.2, 0.8}},
+                                              Vector3{{0.3, -2., 1.}})),
+                  1e-12);
+    }
+}
+
+/** Edges without a jump of rotations leave nothing out. */
+void
+test_smooth_field(const double beta)
+{
+  const Isotropic parameters(beta);
+  Mesh            mesh = difficult_mesh(false);
+  mesh.map             = [](const Point<3> &x) { return x; };
+  // Cells of parallels: a quadratic field of the plane is one of the element.
+  for (unsigned int i = 0; i < mesh.vertices.size(); ++i)
+    mesh.vertices[i] = {i % 3 + 0.2 * (i / 3), 0.9 * (i / 3), 0.};
+  const auto discretization = make_discretization(mesh, 2);
+  const auto assembly       = make_assembly(*discretization, parameters);
+  const auto u = interpolate(*discretization, [](const Point<3> &x) {
+    return Vector3{{0.2 * x[0] * x[1],
+                    0.1 * x[0] * x[0] - 0.2 * x[1],
+                    0.4 * x[0] * x[0] - 0.3 * x[0] * x[1] + 0.2 * x[1]}};
+  });
+  check_below("smooth: tangent is the derivative of the force",
+              tangent_error("smooth: ", *discretization, assembly, u),
+              1e-10);
+}
+
+/** With beta = 0 the law is linear. */
+void
+test_linear_limit()
+{
+  const auto     discretization = make_discretization(difficult_mesh(true), 2);
+  const auto     u              = interpolate(*discretization, some_field);
+  Energies       linear, power;
+  TrilinosVector difference;
+  {
+    const Parameters parameters(section_text(100., 0.3, 0.2));
+    const auto       assembly = make_assembly(*discretization, parameters);
+    linear                    = assembly.energies(u);
+    difference                = force_at(assembly, u);
+  }
+  const double    scale = difference.linfty_norm();
+  const Isotropic parameters(0.);
+  const auto      assembly = make_assembly(*discretization, parameters);
+  power                    = assembly.energies(u);
+  difference -= force_at(assembly, u);
+  check_below("linear limit: forces", difference.linfty_norm() / scale, 1e-12);
+  check_below("linear limit: energies",
+              (std::abs(power.membrane - linear.membrane) +
+               std::abs(power.bending - linear.bending) +
+               std::abs(power.edge - linear.edge)) /
+                linear.total(),
+              1e-12);
+}
+
+void
+test_memory(const double beta)
+{
+  const Isotropic parameters(beta, true);
+  const auto      discretization = make_discretization(difficult_mesh(true), 2);
+  const auto      assembly       = make_assembly(*discretization, parameters);
+  const auto      u              = interpolate(*discretization, some_field);
+  const auto      at_end         = force_at(assembly, u);
+  assembly.update_section_states(u, assembly.actions(Instant()));
+  auto difference = force_at(assembly, u);
+  difference -= at_end;
+  check_below("memory: the end of a step is the start of the next",
+              difference.linfty_norm() / at_end.linfty_norm(),
+              1e-12);
+  TrilinosVector part(u);
+  part *= 0.8;
+  test_gradient("memory, unloaded: ", *discretization, assembly, part);
+  tangent_error("memory, unloaded: ", *discretization, assembly, part);
+}
+
+void
+test_refusals()
+{
+  const Isotropic parameters(1.);
+  const auto      discretization = make_discretization(difficult_mesh(true), 2);
+  for (const auto model :
+       {KinematicsModel::linear, KinematicsModel::corotational})
+    {
+      bool refused = false;
+      try
+        {
+          make_kinematics(*discretization,
+                          parameters.section,
+                          {MembraneStrain::tied,
+                           EdgeForm::rotation_jump,
+                           model,
+                           TangentType::symmetric});
+        }
+      catch (const ExceptionBase &error)
+        {
+          refused = std::string(error.what()).find("choose finite") !=
+                    std::string::npos;
+        }
+      check_above(name_of(model) + " kinematics refuse the law", refused, 0.5);
+    }
+}
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_linear_limit();
+  test_difficult_mesh(2e-3);
+  test_smooth_field(0.05);
+  test_memory(2e-3);
+  test_refusals();
+  return n_failures > 0;
+}
