@@ -24,6 +24,8 @@ run(const std::string              &name,
     const std::vector<std::string> &settings,
     const bool                      restart = false)
 {
+  // Tables have seconds in them.
+  std::streambuf *const out = std::cout.rdbuf(nullptr);
   ParameterAcceptor::clear();
   ConvergenceStudy study(MPI_COMM_WORLD, std::make_unique<MemorySection>());
   std::vector<std::string> overrides(settings);
@@ -33,6 +35,7 @@ run(const std::string              &name,
   study.prepare(file);
   Log log(MPI_COMM_WORLD, true);
   study.run(log, restart);
+  std::cout.rdbuf(out);
 
   std::map<int, Row>       rows;
   std::ifstream            in(name + "_path.csv");
@@ -77,9 +80,8 @@ main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // One rank speaks for all: values are global.
-  std::cout.setstate(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ?
-                       std::ios::goodbit :
-                       std::ios::failbit);
+  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+    std::cout.rdbuf(nullptr);
   auto whole = run("whole", {});
   // Stiffer by what the largest load has done.
   check_above("unloading is another way",
@@ -93,16 +95,16 @@ main(int argc, char *argv[])
               std::abs(whole[2000000][0]) / whole[1000000][0],
               1e-8);
 
-  run("stopped", {"Analysis/End time=1.25", "Analysis/Checkpoint steps=1"});
+  run("stopped", {"Analysis/End time=1", "Analysis/Checkpoint steps=1"});
   auto resumed = run("stopped", {"Analysis/Checkpoint steps=1"}, true);
   check_below("a restart goes on with the states",
-              difference(resumed[1750000], whole[1750000]),
+              difference(resumed[1500000], whole[1500000]),
               1e-7);
 
   // The law is elastic while strains grow: steps make no difference.
   auto failing = run("failing",
                      {"Analysis/Time step=1",
-                      "Analysis/Maximum iterations=5",
+                      "Analysis/Maximum iterations=9",
                       "Analysis/End time=1"});
   check_above("steps fail", failing.size(), 2.5);
   check_below("steps that fail leave no trace",

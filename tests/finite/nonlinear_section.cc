@@ -65,7 +65,7 @@ derivative(const TrilinosVector                               &u,
            const TrilinosVector                               &v,
            const std::function<Value(const TrilinosVector &)> &function)
 {
-  constexpr double                h = 4e-3;
+  constexpr double                h = 1e-4;
   constexpr std::array<double, 4> weights{
     {4. / 5., -1. / 5., 4. / 105., -1. / 280.}};
   Value sum = function(u);
