@@ -39,10 +39,6 @@ namespace Nacre
     for (const auto &[name, value] : chosen_->named_constants())
       known.emplace(name, value);
     initial_strain_.prepare(known, chosen_ == &laminate_);
-    AssertThrow(chosen_->is_linear() || initial_strain_.is_zero(),
-                ExcMessage("Section/Initial strain: it needs 'Type = "
-                           "isotropic' or 'laminate'; 'Type = " +
-                           type_ + "' starts without strain."));
   }
 
   InitialForces

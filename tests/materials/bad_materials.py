@@ -59,7 +59,7 @@ rubber("shear_modulus", [MU, "-1", "positive"], **{MU: "-1"})
 rubber("shear_modulus_somewhere", [MU, "positive", "point"], **{MU: "x - 0.5"})
 rubber("rubber_regions", ["Section/Regions", "neo-Hookean", "expressions"],
        **{"Section/Regions": "web: h = 1"})
-rubber("rubber_initial_strain", ["Section/Initial strain", "neo-Hookean"],
+rubber("rubber_initial_strain", ["Section/Initial strain", "Section/Type"],
        **{"Section/Initial strain/Temperature": "1",
           "Section/Initial strain/Thermal expansion": "1e-5"})
 metal("no_yield_stress", [YIELD, "empty"], **{YIELD: ""})

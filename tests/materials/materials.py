@@ -6,6 +6,7 @@
   materials.py NACRE N_RANKS NAME   run one test
   materials.py --list               names and numbers of ranks, a line each
 """
+import math
 import pathlib
 import sys
 
@@ -37,6 +38,110 @@ def check_path(folder, control, column, table, tolerance):
               f"{control} = {at} isn't on the path: {rows}")
         check(near(float(row[column]), expected, tolerance),
               f"{column} at {control} = {at}: {row}, not {expected}")
+
+
+def check_ratio(folder, column, tolerance):
+    """The last value of `column` over its reference."""
+    row = folder.rows("case.csv")[-1]
+    check(abs(float(row[column]) - 1) <= tolerance, f"{column}: {row}")
+
+
+@test(1)
+def balloon(folder):
+    """A sphere with bending; without, at the limit point l = 7^(1/6)."""
+    folder.succeed(str(FILES / "balloon.prm"), **COARSE)
+    check_path(folder, "w", "time",
+               [(0.1, 0.79192692), (0.3, 1.21973309), (0.5, 1.21627078),
+                (1, 0.98437256)], 3e-5)
+    folder.succeed(str(FILES / "balloon.prm"), "--set",
+                   "Constants=R = 1, h0 = 0.001", **COARSE,
+                   Analysis__Control_values="0.4")
+    point = folder.rows("case_points.csv")[0]
+    check(point["kind"] == "limit"
+          and near(float(point["time"]), 1.2394629, 1e-5), f"{point}")
+
+
+@test(1)
+def inflated_sheet(folder):
+    folder.succeed(str(FILES / "inflated_sheet.prm"), **COARSE,
+                   Study__Refinements="0")
+    check_path(folder, "w", "time",
+               [(0.1, 0.0137795), (0.2, 0.0998504), (0.5, 0.8980017),
+                (0.8, 1.644119), (1, 1.839280), (1.5, 1.80358)], 1e-3)
+
+
+@test(1)
+def cone(folder):
+    """The force on a quarter of the rim."""
+    folder.succeed(str(FILES / "cone.prm"), **{**COARSE,
+                                               "Study__Degrees": "4"})
+    check_path(folder, "w", "F",
+               [(-0.2, -0.25 * 0.0949637), (-1., -0.25 * 0.0208614),
+                (-1.4, -0.25 * 0.0426004), (-1.6, -0.25 * 0.0169149)], 2e-4)
+
+
+@test(1)
+def impossible_strains(folder):
+    """A sheet pressed to no length at all: steps are repeated shorter until
+    the last possible one, which is kept."""
+    folder.write("sheet.prm", """
+subsection Section
+  set Type = neo-Hookean
+  subsection Neo-Hookean
+    set Shear modulus = 1
+  end
+end
+subsection Discretization
+  set Kinematics = finite
+end
+subsection Boundary conditions
+  set Edges = u=0, v=0: symmetry; u=1: x = -t, z = 0, rotation = 0
+end
+subsection Analysis
+  set Type        = static
+  set Load factor = 1
+  set End time    = 1.5
+  set Time step   = 0.5
+  set Minimum time step = 0.1
+end
+subsection Quantities
+  set Quantities = w = displacement x at (1, 0, 0); U = energy
+end
+""")
+    text = folder.fail("sheet.prm", **COARSE,
+                       expect=("infinite or not a number", "last good state"))
+    check("trying half the step" in text, text)
+    values = folder.values("case_path.csv", "U")
+    check(len(values) >= 2 and all(math.isfinite(U) for U in values), text)
+
+
+@test(1)
+def springback(folder):
+    folder.succeed(str(FILES / "springback.prm"), **COARSE)
+    check_ratio(folder, "ratio", 1e-4)
+    check_ratio(folder, "ratio_s", 1e-4)
+
+
+@test(1)
+def plastic_tube(folder):
+    folder.succeed(str(FILES / "plastic_tube.prm"), **COARSE)
+    check_ratio(folder, "ratio", 2e-4)
+    check_ratio(folder, "ratio_d", 2e-4)
+
+
+@test(1)
+def plastic_plate(folder):
+    """w in units of M_p a^2/D at the load q a^2/M_p."""
+    unit = 1e-6 * 0.02**2 / 4 / (0.02**3 / 12 / (1 - 0.3**2))
+    folder.succeed(str(FILES / "plastic_plate.prm"),
+                   **{**COARSE, "Study__Degrees": "4"},
+                   Section__Plasticity__Points="9",
+                   Analysis__Control_step=str(0.4 * unit),
+                   Analysis__Control_values=", ".join(
+                       str(w * unit) for w in (0.2599, 0.4777, 1.087, 3)))
+    check_path(folder, "w", "time",
+               [(0.2599 * unit, 4), (0.4777 * unit, 5.5),
+                (1.087 * unit, 6.3), (3 * unit, 6.5)], 5e-3)
 
 
 if __name__ == "__main__":
