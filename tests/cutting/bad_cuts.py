@@ -151,7 +151,8 @@ removal("remove_supported_edge",
         settings={"Boundary conditions/Edges": "u=0: clamped; u=1: fixed"})
 
 
-def lips(name, expect, load, cuts="slit: uv (1.2, -0.1) (1.3, 0.6)", **settings):
+def lips(name, expect, load, cuts="slit: uv (1.2, -0.1) (1.3, 0.6)",
+         **settings):
     case(name, expect, cuts, **settings)
     CASES[name]["settings"]["Loads/Lip forces"] = load
 
@@ -160,8 +161,9 @@ lips("lip_unknown_cut", ["Loads/Lip forces, 'slot left'", "unknown cut 'slot'",
                          "'slit'"], "slot left: 0, 0, 1")
 lips("lip_without_cuts", ["Loads/Lip forces, 'slit'", "the shell has no cuts",
                           "'Cuts/Cuts' names them"], "slit: 0, 0, 1", cuts="")
-lips("lip_twice", ["'slit'", "the left lip of the cut 'slit' has a load already",
-                   "'slit left'"], "slit left: 0, 0, 1; slit: 0, 0, 2")
+lips("lip_twice", ["the left lip of the cut 'slit' has a load already",
+                   "as a part of 'slit left'"],
+     "slit left: 0, 0, 1; slit: 0, 0, 2")
 lips("lip_two_components", ["Loads/Lip forces, 'slit left'", "0, 1"],
      "slit left: 0, 1")
 lips("lip_closed", ["the cut 'slit' has no right lip", "no cell is open",
