@@ -21,6 +21,17 @@ namespace Nacre::Text
   }
 
   bool
+  take_last_word(std::string &text, const std::string &word)
+  {
+    if (text.size() <= word.size() ||
+        text.compare(text.size() - word.size(), word.size(), word) != 0 ||
+        text[text.size() - word.size() - 1] != ' ')
+      return false;
+    text = trim(text.substr(0, text.size() - word.size()));
+    return true;
+  }
+
+  bool
   begins_with(const std::string &text, const std::string &begin)
   {
     return text.compare(0, begin.size(), begin) == 0;

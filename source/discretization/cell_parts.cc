@@ -3,6 +3,7 @@
 
 #include <nacre/discretization/cell_parts.h>
 #include <nacre/discretization/cut_trace.h>
+#include <nacre/discretization/part_enrichment.h>
 
 #include <algorithm>
 
@@ -100,6 +101,7 @@ namespace Nacre
     for (const auto face : cell->face_indices())
       {
         entry.opened.push_back(trace.opened(k, face));
+        entry.openings.push_back(trace.openings(k, face));
         entry.is_cut |= !entry.opened.back().empty();
       }
     const auto polygons = divide(kind, trace.chains(k));
@@ -128,6 +130,7 @@ namespace Nacre
     touched_cells_.push_back(cell);
     entries_.emplace_back();
     entries_.back().opened.resize(cell->n_faces());
+    entries_.back().openings.resize(cell->n_faces());
     entries_.back().parts.resize(1);
     entries_.back().parts[0].index = k;
   }
@@ -213,5 +216,74 @@ namespace Nacre
         pieces.push_back(piece);
       }
     return pieces;
+  }
+
+  std::vector<CutLip>
+  CellParts::lips(const CellPart &part) const
+  {
+    std::vector<CutLip> lips;
+    if (!is_touched(part.cell))
+      return lips;
+    if (part.is_cut())
+      {
+        const CellPolygon &polygon = part.polygon();
+        const unsigned int n       = polygon.n_vertices();
+        for (unsigned int i = 0; i < n; ++i)
+          if (const auto &side = polygon.side(i);
+              side.face == numbers::invalid_unsigned_int)
+            lips.push_back({polygon.vertex(i),
+                            polygon.vertex((i + 1) % n) - polygon.vertex(i),
+                            side.cut,
+                            side.is_left});
+      }
+    for (const unsigned int face : part.cell->face_indices())
+      add_lips_on_face(part, face, lips);
+    if (part.enrichment() != nullptr)
+      for (const auto &share : part.enrichment()->shares)
+        if (share.holds_tip)
+          {
+            const Point<dim> entry = crack_entry(share, part.outline());
+            lips.push_back({entry, share.tip - entry, share.cut, share.at_end});
+            lips.push_back(
+              {share.tip, entry - share.tip, share.cut, !share.at_end});
+          }
+    return lips;
+  }
+
+  void
+  CellParts::add_lips_on_face(const CellPart      &part,
+                              const unsigned int   face,
+                              std::vector<CutLip> &lips) const
+  {
+    const auto &openings =
+      entries_[entry_of_cell_[part.cell->active_cell_index()]].openings[face];
+    if (openings.empty())
+      return;
+    const auto kind = part.cell->reference_cell();
+    const auto end  = [&](const unsigned int i) {
+      return kind.template vertex<dim>(kind.face_to_cell_vertices(face, i, 1));
+    };
+    const Tensor<1, dim> along   = end(1) - end(0);
+    const auto           outward = kind.template unit_normal_vectors<dim>(face);
+    const bool is_left         = outward[0] * along[1] > outward[1] * along[0];
+    std::vector<Interval> rest = intervals_of(*part.data, face);
+    for (const CutOpening &opening : openings)
+      {
+        std::vector<Interval> next;
+        for (const Interval &own : rest)
+          {
+            const double s_0 = std::max(own[0], opening.begin);
+            const double s_1 = std::min(own[1], opening.end);
+            if (s_1 - s_0 > shortest_piece)
+              lips.push_back({end(0) + (is_left ? s_0 : s_1) * along,
+                              (is_left ? s_1 - s_0 : s_0 - s_1) * along,
+                              opening.cut,
+                              is_left == opening.is_forward});
+            for (const Interval &left :
+                 without(own, {{{opening.begin, opening.end}}}))
+              next.push_back(left);
+          }
+        rest = next;
+      }
   }
 } // namespace Nacre

@@ -28,6 +28,7 @@ namespace Nacre
         const bool         same_line =
           sides_[before].face == sides_[i].face &&
           sides_[before].cut == sides_[i].cut &&
+          sides_[before].is_left == sides_[i].is_left &&
           std::abs(
             offset(vertices_[before], vertices_[(i + 1) % n], vertices_[i])) <
             round_off / 100.;

@@ -25,6 +25,20 @@ namespace Nacre
       return std::minmax(edge.first, edge.second);
     }
 
+    /**
+     * The side of @p edge, if it is that of the sorted edge, and the reverse:
+     * who walks back has the cut's left on the other hand.
+     */
+    CellPolygon::Side
+    seen_along(CellPolygon::Side                            side,
+               const std::pair<unsigned int, unsigned int> &edge)
+    {
+      if (side.face == numbers::invalid_unsigned_int &&
+          edge.first > edge.second)
+        side.is_left = !side.is_left;
+      return side;
+    }
+
     /** Where a part stands in the order: no symmetry prefers the direction. */
     double
     rank_along(const Point<dim> &x)
@@ -62,7 +76,7 @@ namespace Nacre
     for (unsigned int i = 1; i < chain.points.size(); ++i)
       insert(chain.points[i - 1],
              chain.points[i],
-             {numbers::invalid_unsigned_int, chain.cut});
+             {numbers::invalid_unsigned_int, chain.cut, true});
   }
 
   void
@@ -186,7 +200,8 @@ namespace Nacre
                                snap_distance))
       {
         // A face stays one, else the first lip to come.
-        const auto place = edges_.emplace(sorted({a, b}), side).first;
+        const auto place =
+          edges_.emplace(sorted({a, b}), seen_along(side, {a, b})).first;
         if (side.face != numbers::invalid_unsigned_int)
           place->second = side;
       }
@@ -292,9 +307,9 @@ namespace Nacre
     std::vector<Side>       sides;
     for (unsigned int i = 0; i < from.size(); ++i)
       {
+        const Edge edge(from[i], from[(i + 1) % from.size()]);
         vertices.push_back(nodes_[from[i]]);
-        sides.push_back(
-          edges_.at(sorted({from[i], from[(i + 1) % from.size()]})));
+        sides.push_back(seen_along(edges_.at(sorted(edge)), edge));
       }
     return {polygon_.reference_cell(), vertices, sides};
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace Nacre
 {
@@ -16,6 +17,8 @@ namespace Nacre
   {
     /** A tip doesn't stop so near before an edge or a cut: of its advance. */
     constexpr double narrow_ligament = 0.25;
+    /** Along a crack with two tips. */
+    constexpr unsigned int least_cells = 4;
 
     /** The mid-surface of a part, as its nodes give it. */
     struct GrownSurface
@@ -200,6 +203,38 @@ namespace Nacre
           size = std::max(size, vertex(0).distance(vertex(1)));
         }
     return Utilities::MPI::max(size, discretization.communicator());
+  }
+
+  std::vector<CoarseCrack>
+  coarse_cracks(const Discretization &discretization)
+  {
+    std::map<unsigned int, unsigned int> n_tips;
+    for (const auto &tip : discretization.tips())
+      ++n_tips[tip.cut];
+    std::vector<CoarseCrack> cracks;
+    for (const auto &[cut, n] : n_tips)
+      {
+        if (n < 2)
+          continue;
+        unsigned int n_lines = 0;
+        for (const auto &line : discretization.cut_lines())
+          n_lines += (line.cut == cut);
+        const unsigned int n_cells =
+          Utilities::MPI::sum(n_lines, discretization.communicator());
+        if (n_cells < least_cells)
+          cracks.push_back({cut, n_cells});
+      }
+    return cracks;
+  }
+
+  std::string
+  in_words(const CoarseCrack &crack, const Cuts &cuts)
+  {
+    return "the crack '" + cuts.curves[crack.cut].name + "' runs through " +
+           std::to_string(crack.n_cells) +
+           (crack.n_cells == 1 ? " cell" : " cells") +
+           ", too few for what happens at its tips; take a mesh that has " +
+           std::to_string(least_cells) + " at least along it";
   }
 
   TipAdvance

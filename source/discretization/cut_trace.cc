@@ -52,24 +52,10 @@ namespace Nacre
     void
     move_to(const unsigned int                               index,
             std::vector<CutChain>                           &chains,
-            std::vector<std::vector<std::array<double, 2>>> &opened);
+            std::vector<std::vector<std::array<double, 2>>> &opened,
+            std::vector<std::vector<CutOpening>>            &by_cut);
 
   private:
-    /** An interval of a face, and the cut that runs there. */
-    struct Opening
-    {
-      double       begin;
-      double       end;
-      unsigned int cut;
-
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &begin &end &cut;
-      }
-    };
-
     /** Several cells may share a tip. */
     struct TipOfCell
     {
@@ -97,8 +83,8 @@ namespace Nacre
     /** Of a cell. */
     struct CellTrace
     {
-      std::vector<CutChain>             chains;
-      std::vector<std::vector<Opening>> openings;
+      std::vector<CutChain>                chains;
+      std::vector<std::vector<CutOpening>> openings;
 
       bool
       is_empty() const
@@ -136,7 +122,7 @@ namespace Nacre
 
     /** Add to a face, in the terms of its cell. */
     void
-    open(const Cell &cell, const unsigned int face, const Opening &opening);
+    open(const Cell &cell, const unsigned int face, const CutOpening &opening);
 
     void
     exchange();
@@ -215,7 +201,9 @@ namespace Nacre
               ++f;
             const double s_a = faces_.parameter(f, a.unit);
             const double s_b = faces_.parameter(f, b.unit);
-            open(cell, f, {std::min(s_a, s_b), std::max(s_a, s_b), cut});
+            open(cell,
+                 f,
+                 {std::min(s_a, s_b), std::max(s_a, s_b), cut, s_a < s_b});
             chain.points = {b.unit};
             continue;
           }
@@ -282,7 +270,7 @@ namespace Nacre
   void
   CutTrace::Tracer::open(const Cell        &cell,
                          const unsigned int face,
-                         const Opening     &opening)
+                         const CutOpening  &opening)
   {
     if (cell->at_boundary(face))
       return;
@@ -291,7 +279,7 @@ namespace Nacre
     // Both cells of an edge may have found it.
     if (std::none_of(openings[face].begin(),
                      openings[face].end(),
-                     [&](const Opening &other) {
+                     [&](const CutOpening &other) {
                        return other.begin == opening.begin &&
                               other.end == opening.end &&
                               other.cut == opening.cut;
@@ -340,10 +328,13 @@ namespace Nacre
             const unsigned int g      = cell->neighbor_of_neighbor(f);
             const bool         turned = neighbor->vertex_index(corner(g)) !=
                                 cell->vertex_index(corner(f));
-            for (Opening opening : openings[g])
+            for (CutOpening opening : openings[g])
               {
                 if (turned)
-                  opening = {1. - opening.end, 1. - opening.begin, opening.cut};
+                  opening = {1. - opening.end,
+                             1. - opening.begin,
+                             opening.cut,
+                             !opening.is_forward};
                 open(cell, f, opening);
               }
           }
@@ -432,7 +423,7 @@ namespace Nacre
         if (is_on(chain.cut, chain.points[i - 1], chain.points[i]))
           return true;
     for (unsigned int f = 0; f < trace.openings.size(); ++f)
-      for (const Opening &opening : trace.openings[f])
+      for (const CutOpening &opening : trace.openings[f])
         if (is_on(opening.cut,
                   faces_.point(f, opening.begin),
                   faces_.point(f, opening.end)))
@@ -502,7 +493,7 @@ namespace Nacre
             add(cell, chain.cut, chain.points);
           for (unsigned int f = 0; f < trace.openings.size(); ++f)
             if (!cell->at_boundary(f) && cell->id() < cell->neighbor(f)->id())
-              for (const Opening &opening : trace.openings[f])
+              for (const CutOpening &opening : trace.openings[f])
                 add(cell,
                     opening.cut,
                     {faces_.point(f, opening.begin),
@@ -515,24 +506,32 @@ namespace Nacre
   CutTrace::Tracer::move_to(
     const unsigned int                               index,
     std::vector<CutChain>                           &chains,
-    std::vector<std::vector<std::array<double, 2>>> &opened)
+    std::vector<std::vector<std::array<double, 2>>> &opened,
+    std::vector<std::vector<CutOpening>>            &by_cut)
   {
     CellTrace &trace = traces_[index];
     chains           = std::move(trace.chains);
     opened.resize(faces_.size());
-    for (unsigned int f = 0; f < trace.openings.size(); ++f)
+    by_cut = std::move(trace.openings);
+    by_cut.resize(faces_.size());
+    for (unsigned int f = 0; f < faces_.size(); ++f)
       {
-        auto &openings = trace.openings[f];
-        std::sort(openings.begin(),
-                  openings.end(),
-                  [](const Opening &a, const Opening &b) {
+        std::vector<CutOpening> sorted = by_cut[f];
+        std::sort(sorted.begin(),
+                  sorted.end(),
+                  [](const CutOpening &a, const CutOpening &b) {
                     return a.begin < b.begin;
                   });
-        for (const Opening &opening : openings)
+        for (const CutOpening &opening : sorted)
           if (!opened[f].empty() && opening.begin <= opened[f].back()[1])
             opened[f].back()[1] = std::max(opened[f].back()[1], opening.end);
           else
             opened[f].push_back({{opening.begin, opening.end}});
+        std::stable_sort(by_cut[f].begin(),
+                         by_cut[f].end(),
+                         [](const CutOpening &a, const CutOpening &b) {
+                           return a.cut < b.cut;
+                         });
       }
   }
 
@@ -544,6 +543,9 @@ namespace Nacre
     , opened_(mesh.n_active_cells(),
               std::vector<std::vector<std::array<double, 2>>>(
                 maps.reference_cell.n_faces()))
+    , openings_(mesh.n_active_cells(),
+                std::vector<std::vector<CutOpening>>(
+                  maps.reference_cell.n_faces()))
   {
     if (cuts.is_empty())
       return;
@@ -559,7 +561,8 @@ namespace Nacre
       if (!cell->is_artificial())
         tracer.move_to(cell->active_cell_index(),
                        chains_[cell->active_cell_index()],
-                       opened_[cell->active_cell_index()]);
+                       opened_[cell->active_cell_index()],
+                       openings_[cell->active_cell_index()]);
   }
 
 

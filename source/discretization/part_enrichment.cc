@@ -52,7 +52,8 @@ namespace Nacre
                            const GeometryTable::Values   &geometry,
                            const unsigned int             q,
                            const Point<dim>              &unit,
-                           std::vector<FieldDerivatives> &result) const
+                           std::vector<FieldDerivatives> &result,
+                           const Tensor<1, dim>          &lip) const
   {
     const FieldDerivatives        surface{geometry.position(q),
                                    {{geometry.tangent(q, 0),
@@ -61,7 +62,9 @@ namespace Nacre
     std::vector<FieldDerivatives> fields;
     for (const Share &share : shares)
       {
-        share.functions->evaluate(surface, share.side, fields);
+        const double back = share.holds_tip ? lip * share.backward : 0.;
+        const int    side = back < 0. ? 1 : back > 0. ? -1 : share.side;
+        share.functions->evaluate(surface, side, fields);
         if (!share.open_nodes.empty())
           {
             append_jumps(share, fields, shapes, q, result);
@@ -151,6 +154,34 @@ namespace Nacre
       return (x - share.tip) * d > 0. ? s : -1.;
     }
 
+  } // namespace
+
+  Point<dim>
+  crack_entry(const PartEnrichment::Share &share, const CellPolygon &outline)
+  {
+    Point<dim> entry;
+    double     nearest = std::numeric_limits<double>::max();
+    for (unsigned int i = 0; i < outline.n_vertices(); ++i)
+      {
+        const auto  &begin = outline.vertex(i);
+        const auto  &end   = outline.vertex((i + 1) % outline.n_vertices());
+        const double s     = entry_on(begin, end, share);
+        if (s < -PlaneGeometry::snap_distance ||
+            s > 1. + PlaneGeometry::snap_distance)
+          continue;
+        const Point<dim> x = begin + s * (end - begin);
+        if (x.distance(share.tip) < nearest)
+          {
+            nearest = x.distance(share.tip);
+            entry   = x;
+          }
+      }
+    Assert(nearest < std::numeric_limits<double>::max(), ExcInternalError());
+    return entry;
+  }
+
+  namespace
+  {
     /** Of a convex polygon, vertices counterclockwise. */
     void
     append_near_tip(const std::vector<Point<dim>> &vertices,

@@ -111,4 +111,29 @@ namespace Nacre
                              " names. Leave the edge out there, or state "
                              "points of other pieces."));
   }
+
+  void
+  check_loaded_lips(const Discretization &discretization,
+                    const Cuts           &cuts,
+                    const Loads          &loads)
+  {
+    if (!loads.has_lip_loads())
+      return;
+    std::vector<unsigned int> exists(2 * cuts.curves.size(), 0);
+    for (const CellPart &part : discretization.owned_parts())
+      for (const CutLip &lip : discretization.cell_parts().lips(part))
+        exists[2 * lip.cut + lip.is_left] = 1;
+    std::vector<unsigned int> on_all(exists.size());
+    Utilities::MPI::max(exists, discretization.communicator(), on_all);
+    for (const auto &[cut, is_left] : loads.loaded_lips())
+      AssertThrow(on_all[2 * cut + is_left] == 1,
+                  ExcMessage(std::string("Loads/Lip forces, Lip moments, Lip "
+                                         "pressures: the cut '") +
+                             cuts.curves[cut].name + "' has no " +
+                             (is_left ? "left" : "right") +
+                             " lip: no cell is open there, or Cuts/Remove "
+                             "takes that side away. Refine the mesh, or name "
+                             "the other side, 'CUT " +
+                             (is_left ? "right" : "left") + "'."));
+  }
 } // namespace Nacre

@@ -186,22 +186,23 @@ namespace Nacre
   }
 
   void
-  ShellEdgeValues::reinit_lip(const CellPart &part, const unsigned int i)
+  ShellEdgeValues::reinit_lip(const CellPart &part, const CutLip &lip)
   {
-    const CellPolygon   &polygon = part.polygon();
-    const Point<dim>     begin   = polygon.vertex(i);
-    const Tensor<1, dim> along =
-      polygon.vertex((i + 1) % polygon.n_vertices()) - begin;
-    use_rule({});
+    std::optional<Quadrature<1>> tip_rule;
+    if (const auto *const enrichment = enrichment_of(part))
+      tip_rule = enriched_edge_quadrature(*enrichment,
+                                          lip.begin,
+                                          lip.begin + lip.along,
+                                          discretization_.degree());
+    use_rule(tip_rule);
     std::vector<Point<dim>> points;
     for (const auto &x : rule().get_points())
-      points.push_back(begin + x[0] * along);
+      points.push_back(lip.begin + x[0] * lip.along);
     n_sides_ = 1;
     piece_tables_[0].emplace(discretization_, points);
     table_of_side_[0] = {numbers::invalid_unsigned_int, piece_kind};
     parts_[0]         = part;
-    // The polygon lies on the left of its sides.
-    evaluate(0, along, 1., 1.);
+    evaluate(0, lip.along, 1., 1., true);
     join_dofs();
   }
 
@@ -268,7 +269,8 @@ namespace Nacre
   ShellEdgeValues::evaluate(const unsigned int    side,
                             const Tensor<1, dim> &along,
                             const double          outward,
-                            const double          share)
+                            const double          share,
+                            const bool            is_lip)
   {
     auto &geometry               = geometry_[side];
     material_ids_[side]          = parts_[side].cell->material_id();
@@ -290,11 +292,12 @@ namespace Nacre
         if (side == 0)
           JxW_[q] = share * length * rule().weight(q);
       }
-    evaluate_tip_functions(side);
+    evaluate_tip_functions(side, is_lip ? along : Tensor<1, dim>());
   }
 
   void
-  ShellEdgeValues::evaluate_tip_functions(const unsigned int side)
+  ShellEdgeValues::evaluate_tip_functions(const unsigned int    side,
+                                          const Tensor<1, dim> &lip)
   {
     tip_functions_[side].clear();
     const PartEnrichment *const enrichment = enrichment_of(parts_[side]);
@@ -308,7 +311,8 @@ namespace Nacre
                            geometry_[side],
                            q,
                            table.points[q],
-                           tip_functions_[side]);
+                           tip_functions_[side],
+                           lip);
   }
 
   void

@@ -135,7 +135,8 @@ namespace Nacre
                                   geometry_,
                                   q,
                                   quadrature().point(q),
-                                  tip_functions_);
+                                  tip_functions_,
+                                  lip_);
   }
 
   void

@@ -466,6 +466,8 @@ namespace Nacre
     share.functions  = opening.functions;
     share.is_near    = true;
     share.holds_tip  = true;
+    share.cut        = tips_[t].cut;
+    share.at_end     = tips_[t].at_end;
     share.tip        = tips_[t].unit;
     share.open_nodes = opening.entry.nodes;
     share.backward   = backward_from_tip(

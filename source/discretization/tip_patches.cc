@@ -348,6 +348,8 @@ namespace Nacre
     share.functions   = patch.functions;
     share.holds_tip   = holds_tip(tips_[t], part);
     share.side        = side_of(t, part, is_cut);
+    share.cut         = tips_[t].cut;
+    share.at_end      = tips_[t].at_end;
     share.tip         = part.cell->id() == tips_[t].cell ?
                           tips_[t].unit :
                           continued_point(scalar_fe_, nodes, tips_[t].position);

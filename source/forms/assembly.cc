@@ -156,6 +156,10 @@ namespace Nacre
       : shell_(shell)
       , terms_(terms)
       , state_(state)
+      , acts_on_lips_(
+          std::any_of(terms.begin(),
+                      terms.end(),
+                      [](const Term *term) { return term->acts_on_lips(); }))
       , kinematics_(shell.kinematics_->clone())
       , edge_(shell.discretization_)
     {
@@ -185,6 +189,8 @@ namespace Nacre
                          *kinematics_);
           for (const Term *term : terms_)
             term->add_on_cell(place, result.terms);
+          if (acts_on_lips_)
+            add_on_lips(part, result);
         }
     }
 
@@ -283,6 +289,27 @@ namespace Nacre
       copy.take_block(result);
     }
 
+    void
+    add_on_lips(const CellPart &part, PartCopy &copy)
+    {
+      for (const CutLip &lip : cell_parts().lips(part))
+        {
+          edge_.reinit_lip(part, lip);
+          FaceCopy      &result = start_edge(copy);
+          const TermEdge place{edge_,
+                               shell_.penalty_.boundary(part),
+                               local_,
+                               state_.actions,
+                               *kinematics_,
+                               numbers::internal_face_boundary_id,
+                               {}};
+          for (const Term *term : terms_)
+            if (term->acts_on_lips())
+              term->add_on_lip(place, lip, result.terms);
+          copy.take_block(result);
+        }
+    }
+
     /** The state on the edge, and zero terms. */
     FaceCopy &
     start_edge(PartCopy &copy)
@@ -309,6 +336,7 @@ namespace Nacre
     const Assembly             &shell_;
     const TermPointers         &terms_;
     const State                &state_;
+    const bool                  acts_on_lips_;
     std::unique_ptr<Kinematics> kinematics_;
     ShellEdgeValues             edge_;
     LocalState                  local_;

@@ -25,6 +25,39 @@ namespace Nacre
               values.shapes().gradient(q, a)[alpha] * u[values.dof(a, c)];
       return du;
     }
+
+    /** Add minus the load, as a residual, on the one side of an edge. */
+    void
+    add_line_load(const LineLoad &load, const TermEdge &edge, LocalTerms &terms)
+    {
+      const ShellEdgeValues &values  = edge.values;
+      const Instant         &instant = edge.actions.loads;
+      if (load.moment != nullptr)
+        {
+          std::vector<double> moments(values.n_points());
+          for (unsigned int q = 0; q < moments.size(); ++q)
+            moments[q] = load.moment_at(values.point(q), instant);
+          edge.kinematics.add_moment_terms(values,
+                                           moments,
+                                           edge.state.u,
+                                           terms);
+        }
+      if (load.force == nullptr && load.pressure == nullptr)
+        return;
+      const auto &shapes = values.shapes(0);
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        {
+          const auto f =
+            values.JxW(q) *
+            load.force_at(values.point(q), values.conormal(0, q), instant);
+          for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+            for (unsigned int c = 0; c < spacedim; ++c)
+              terms.residual[values.dof(0, a, c)] -= shapes.value(q, a) * f[c];
+          for (unsigned int k = 0; k < values.n_tip_functions(0); ++k)
+            terms.residual[values.tip_dof(0, k)] -=
+              values.tip_function(0, q, k).value * f;
+        }
+    }
   } // namespace
 
   SurfaceLoadTerm::SurfaceLoadTerm(const SectionLaw &section,
@@ -105,37 +138,27 @@ namespace Nacre
                                  const std::pair<unsigned int, unsigned int> &,
                                  const ShellActions &) const
   {
-    return loads_.edge_forces().count(id) > 0 ||
-           loads_.edge_moments().count(id) > 0;
+    return !loads_.on_edge(id).is_zero();
   }
 
   void
   EdgeLoadTerm::add_on_boundary(const TermEdge &edge, LocalTerms &terms) const
   {
-    const ShellEdgeValues &values  = edge.values;
-    const Instant         &instant = edge.actions.loads;
-    const auto moment = loads_.edge_moments().find(edge.boundary_id);
-    if (moment != loads_.edge_moments().end())
-      {
-        std::vector<double> moments(values.n_points());
-        for (unsigned int q = 0; q < moments.size(); ++q)
-          moments[q] = moment->second(values.point(q), instant);
-        edge.kinematics.add_moment_terms(values, moments, edge.state.u, terms);
-      }
-    const auto force = loads_.edge_forces().find(edge.boundary_id);
-    if (force == loads_.edge_forces().end())
-      return;
-    const auto &shapes = values.shapes(0);
-    for (unsigned int q = 0; q < values.n_points(); ++q)
-      {
-        const auto f = values.JxW(q) * force->second(values.point(q), instant);
-        for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-          for (unsigned int c = 0; c < spacedim; ++c)
-            terms.residual[values.dof(0, a, c)] -= shapes.value(q, a) * f[c];
-        for (unsigned int k = 0; k < values.n_tip_functions(0); ++k)
-          terms.residual[values.tip_dof(0, k)] -=
-            values.tip_function(0, q, k).value * f;
-      }
+    add_line_load(loads_.on_edge(edge.boundary_id), edge, terms);
+  }
+
+  bool
+  EdgeLoadTerm::acts_on_lips() const
+  {
+    return loads_.has_lip_loads();
+  }
+
+  void
+  EdgeLoadTerm::add_on_lip(const TermEdge &edge,
+                           const CutLip   &lip,
+                           LocalTerms     &terms) const
+  {
+    add_line_load(loads_.on_lip({lip.cut, lip.is_left}), edge, terms);
   }
 
   PointForceTerm::PointForceTerm(const Discretization &discretization,

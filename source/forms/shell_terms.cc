@@ -38,12 +38,17 @@ namespace Nacre
              const ShellParts     &parts,
              const TermSelection   selection)
   {
-    const Loads &loads = parts.loads;
-    AssertThrow(!loads.has_pressure() ||
-                  is_consistently_oriented(discretization),
-                ExcMessage("Loads/Pressure: neighbouring cells have opposite "
-                           "normals, so that a pressure has no direction; use "
-                           "Force per area."));
+    const Loads &loads     = parts.loads;
+    const bool   has_sides = loads.has_pressure() || loads.has_lip_loads();
+    AssertThrow(!has_sides || is_consistently_oriented(discretization),
+                ExcMessage(loads.has_pressure() ?
+                             "Loads/Pressure: neighbouring cells have opposite "
+                             "normals, so that a pressure has no direction; "
+                             "use Force per area." :
+                             "Loads/Lip forces, Lip moments, Lip pressures: "
+                             "neighbouring cells have opposite normals, so "
+                             "that a cut has no left side; orient the cells "
+                             "of the mesh alike."));
     Terms terms;
     terms.push_back(std::make_unique<StrainTerm>());
     terms.push_back(std::make_unique<RotationJumpTerm>());

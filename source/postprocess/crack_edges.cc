@@ -19,6 +19,34 @@ namespace Nacre
       return d[0] * x[0] + d[1] * x[1];
     }
 
+    /** The line of an edge's side at the advance s of the tip. */
+    struct MovedLine
+    {
+      MovedLine(const CrackEdgeSide &side, const double s)
+        : at(side.surface, side.extension, side.u, s)
+        , d(side.tangent + s * side.extension.gradient * side.tangent)
+        , tangent(along_edge(at.frame.a_cov, d))
+        , conormal((side.outward / tangent.norm()) *
+                   cross_product_3d(tangent, at.frame.t0))
+      {}
+
+      /** theta of (N.11), sigma left out. */
+      double
+      rotation() const
+      {
+        return at.frame.t0 * ((at.frame.a_con[0] * conormal) * at.u.first[0] +
+                              (at.frame.a_con[1] * conormal) * at.u.first[1]);
+      }
+
+      MovedPoint at;
+      /** In the reference cell. */
+      Tensor<1, dim> d;
+      /** d (1) of the moved surface; of unit length at s = 0. */
+      Vector3 tangent;
+      /** nu. */
+      Vector3 conormal;
+    };
+
     /** A side of an edge at the advance s of the tip. */
     struct MovedEdgeSide
     {
@@ -47,19 +75,17 @@ namespace Nacre
                                  const CrackEdgeSide &side,
                                  const double         s)
     {
-      const MovedPoint at(side.surface, side.extension, side.u, s);
-      const auto      &frame = at.frame;
-      const auto d = side.tangent + s * side.extension.gradient * side.tangent;
-      tangent      = along_edge(frame.a_cov, d);
-      normal       = side.sigma * frame.t0;
-      const Vector3 nu =
-        (side.outward / tangent.norm()) * cross_product_3d(tangent, frame.t0);
-      const auto dyad     = ShellStrain::dyad_of(frame, nu);
-      const auto response = at.response(section, is_linear, side.tying);
-      moment              = side.sigma * (dyad * response.moment);
-      stiffness           = dyad * (response.tangent.bending * dyad);
-      rotation            = normal * ((frame.a_con[0] * nu) * at.u.first[0] +
-                           (frame.a_con[1] * nu) * at.u.first[1]);
+      const MovedLine line(side, s);
+      const auto     &at    = line.at;
+      const auto     &frame = at.frame;
+      const auto     &d     = line.d;
+      tangent               = line.tangent;
+      normal                = side.sigma * frame.t0;
+      rotation              = side.sigma * line.rotation();
+      const auto dyad       = ShellStrain::dyad_of(frame, line.conormal);
+      const auto response   = at.response(section, is_linear, side.tying);
+      moment                = side.sigma * (dyad * response.moment);
+      stiffness             = dyad * (response.tangent.bending * dyad);
       if (is_linear)
         return;
       const std::array<Vector3, 2> phi = {
@@ -100,6 +126,21 @@ namespace Nacre
       cross_product_3d(d, frame.t0) * edge.conormal(side, q) > 0. ? 1. : -1.;
   }
 
+  CrackEdgeSide::CrackEdgeSide(const CrackTip       &tip,
+                               const CrackPlateau   &plateau,
+                               const CrackPoints    &points,
+                               const unsigned int    q,
+                               const Tensor<1, dim> &tangent,
+                               const double          outward)
+    : surface(points.surface(q))
+    , extension(tip, plateau, surface)
+    , u(points.derivatives(q))
+    , tying(points.tying(q))
+    , tangent(tangent)
+    , outward(outward)
+    , sigma(1.)
+  {}
+
   double
   edge_energy_change(const SectionAt                    &section,
                      const bool                          is_linear,
@@ -121,5 +162,22 @@ namespace Nacre
       return (0.5 * penalty * D * jump - mean) * jump * minus.tangent.norm();
     };
     return change_with_advance(energy, length);
+  }
+
+  double
+  lip_work_change(const LineLoad            &load,
+                  const Instant             &instant,
+                  const CrackEdgeSide       &side,
+                  const Tensor<1, spacedim> &u,
+                  const double               length)
+  {
+    const auto work = [&](const double s) {
+      const MovedLine line(side, s);
+      const Point<3> &x = line.at.point;
+      return (load.force_at(x, line.conormal, instant) * u -
+              load.moment_at(x, instant) * line.rotation()) *
+             line.tangent.norm();
+    };
+    return change_with_advance(work, length);
   }
 } // namespace Nacre

@@ -22,11 +22,12 @@ namespace Nacre
   }
 
   CrackPoints::CrackPoints(const SolvedShell     &shell,
-                           const Quadrature<dim> &points)
+                           const Quadrature<dim> &points,
+                           const Tensor<1, dim>  &lip)
     : shell_(shell)
     , is_linear_(shell.model.kinematics.model == KinematicsModel::linear)
     , quadrature_(points)
-    , strains_(shell, points)
+    , strains_(shell, points, lip)
     , u_(shell.discretization.node_dofs().size())
   {
     const auto &fe = shell.discretization.geometry_fe();

@@ -23,21 +23,6 @@ namespace Nacre
     return table;
   }
 
-  unsigned int
-  find_cut(const std::string &name, const Cuts &cuts, const std::string &where)
-  {
-    std::vector<std::string> names;
-    for (const CutCurve &curve : cuts.curves)
-      names.push_back(curve.name);
-    AssertThrow(!names.empty(),
-                ExcMessage(where + ": the shell has no cuts; 'Cuts/Cuts' "
-                                   "names them."));
-    const auto found = std::find(names.begin(), names.end(), name);
-    AssertThrow(found != names.end(),
-                ExcMessage(Text::unknown_name(where, "cut", name, names)));
-    return found - names.begin();
-  }
-
   namespace
   {
     using Vector3 = Tensor<1, spacedim>;

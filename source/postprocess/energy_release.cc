@@ -290,8 +290,12 @@ namespace Nacre
           for (const auto &x : rule.get_points())
             on_side.push_back(side.begin + x[0] * d);
           CrackPoints points(shell_,
-                             Quadrature<dim>(on_side, rule.get_weights()));
+                             Quadrature<dim>(on_side, rule.get_weights()),
+                             side.edge ? Tensor<1, dim>() : d);
           points.reinit(part);
+          const auto &loads = shell_.model.loads;
+          const auto  load =
+            side.edge ? loads.on_edge(*side.edge) : loads.on_lip(side.cut);
           for (unsigned int q = 0; q < rule.size(); ++q)
             {
               const auto surface = points.surface(q);
@@ -314,11 +318,12 @@ namespace Nacre
                 {points,
                  q,
                  side.edge,
-                 tangent,
-                 along,
+                 load,
+                 d / length,
+                 side.part_is_left,
+                 length * weight,
                  (slope * length + along * (tangent * curvature) / length) *
                    weight,
-                 weight,
                  outward * carried(x, extension),
                  -(outward * tip_.axes[1])});
             }
@@ -330,8 +335,9 @@ namespace Nacre
   EnergyRelease::check_lips() const
   {
     const auto &supports = shell_.model.supports.edges();
-    const auto &moments  = shell_.model.loads.edge_moments();
-    double      length   = 0.;
+    const bool  is_linear =
+      shell_.model.kinematics.model == KinematicsModel::linear;
+    double length = 0.;
     run_on_all_ranks(shell_.discretization.communicator(), [&]() {
       for_each_lip_point([&](const LipPoint &lip) {
         const Point<3>     x = lip.points.surface(lip.q).position;
@@ -345,6 +351,13 @@ namespace Nacre
                                "cut, or the crack turns" +
                                at));
         length += lip.divergence;
+        AssertThrow(is_linear || lip.load.moment == nullptr ||
+                      lip.load.moment->is_zero(),
+                    ExcMessage(where_ +
+                               "a moment acts on a lip of the crack, which "
+                               "these quantities know in linear kinematics "
+                               "only" +
+                               at));
         if (!lip.edge)
           return;
         const auto support = supports.find(*lip.edge);
@@ -352,13 +365,6 @@ namespace Nacre
           support == supports.end() || (support->second.displacements.empty() &&
                                         !support->second.rotation),
           ExcMessage(where_ + "a lip of the crack is supported" + at));
-        const auto moment = moments.find(*lip.edge);
-        AssertThrow(moment == moments.end() || moment->second.is_zero(),
-                    ExcMessage(where_ +
-                               "a moment acts on a lip of the "
-                               "crack, which these quantities don't "
-                               "know" +
-                               at));
       });
     });
     // Both lips begin where nothing moves and end at the tip, which moves by 1.
@@ -482,26 +488,29 @@ namespace Nacre
   EnergyRelease::add_lips(const std::vector<WilliamsField> &fields,
                           std::vector<double>              &sums) const
   {
-    const auto    &forces  = shell_.model.loads.edge_forces();
-    const Instant &instant = shell_.actions.loads;
+    const double width = plateau_.outer - plateau_.inner;
     for_each_lip_point([&](const LipPoint &lip) {
-      const auto force = lip.edge ? forces.find(*lip.edge) : forces.end();
-      if (force == forces.end())
+      if (lip.load.is_zero())
         return;
-      const SectionPoint x = lip.points.surface(lip.q).position;
-      // Along the lip's tangent; a difference of second order
-      const double step =
-        1e-4 * (plateau_.outer - plateau_.inner) / lip.tangent.norm();
-      const Vector3 slope = (force->second(x + step * lip.tangent, instant) -
-                             force->second(x - step * lip.tangent, instant)) /
-                            (2. * step);
-      const Vector3 change =
-        force->second(x, instant) * lip.divergence +
-        slope * lip.velocity * lip.tangent.norm() * lip.weight;
-      sums[0] += lip.points.displacement(lip.q) * change;
+      CrackEdgeSide side(tip_,
+                         plateau_,
+                         lip.points,
+                         lip.q,
+                         lip.tangent,
+                         lip.outward);
+      const auto    change = [&](const Vector3 &u) {
+        return lip.length *
+               lip_work_change(lip.load, shell_.actions.loads, side, u, width);
+      };
+      sums[0] += change(lip.points.displacement(lip.q));
       for (unsigned int i = 0; i < fields.size(); ++i)
-        sums[i + 1] +=
-          2. * (williams_value(fields[i], tip_, lip.side, x) * change);
+        {
+          const auto &X = fields[i];
+          side.u        = williams_derivatives(X, tip_, lip.side, side.surface);
+          sums[i + 1] +=
+            2. *
+            change(williams_value(X, tip_, lip.side, side.surface.position));
+        }
     });
   }
 

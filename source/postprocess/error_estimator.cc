@@ -279,19 +279,16 @@ namespace Nacre
         }
     }
 
-    /** The lips of a part within its cell, which are free edges. */
     void
     add_lips(const CellPart &part)
     {
-      if (!part.is_cut())
-        return;
-      for (unsigned int i = 0; i < part.polygon().n_vertices(); ++i)
-        if (part.polygon().side(i).face == numbers::invalid_unsigned_int)
-          {
-            edge_.reinit_lip(part, i);
-            prescribed_.assign(edge_.n_points(), PrescribedRotation());
-            add_edge(numbers::internal_face_boundary_id);
-          }
+      for (const CutLip &lip : discretization_.cell_parts().lips(part))
+        {
+          edge_.reinit_lip(part, lip);
+          prescribed_.assign(edge_.n_points(), PrescribedRotation());
+          add_edge(numbers::internal_face_boundary_id,
+                   estimator_.parts_.loads.on_lip({lip.cut, lip.is_left}));
+        }
     }
 
     /** d/ds (m^ab nu_a tau_b t0) of a side at all points of the edge. */
@@ -348,6 +345,12 @@ namespace Nacre
     void
     add_edge(const types::boundary_id id)
     {
+      add_edge(id, estimator_.parts_.loads.on_edge(id));
+    }
+
+    void
+    add_edge(const types::boundary_id id, const LineLoad &load)
+    {
       const unsigned int n_sides = edge_.n_sides();
       fill_tangents();
       std::vector<std::vector<Vector3>> tractions(fields_.size(),
@@ -378,7 +381,7 @@ namespace Nacre
             vectors_[f] = tractions[f][q];
           is_linear_ ? fill_jumps(q) : fill_finite_jumps(q);
           if (n_sides == 1)
-            apply_boundary_data(id, q);
+            apply_boundary_data(id, load, q);
           add_edge_point(q);
         }
     }
@@ -466,23 +469,21 @@ namespace Nacre
 
     /** From the values on the boundary to residuals. */
     void
-    apply_boundary_data(const types::boundary_id id, const unsigned int q)
+    apply_boundary_data(const types::boundary_id id,
+                        const LineLoad          &load,
+                        const unsigned int       q)
     {
-      const auto &loads   = estimator_.parts_.loads;
-      const auto  edge    = estimator_.parts_.supports.edges().find(id);
-      const bool  rotates = (edge != estimator_.parts_.supports.edges().end() &&
+      const auto edge    = estimator_.parts_.supports.edges().find(id);
+      const bool rotates = (edge != estimator_.parts_.supports.edges().end() &&
                             edge->second.rotation != nullptr);
-      const auto  point   = edge_.point(q);
+      const auto point   = edge_.point(q);
       for (unsigned int f = 0; f < fields_.size(); ++f)
         {
           if (fields_[f].has_data)
             {
-              const auto force  = loads.edge_forces().find(id);
-              const auto moment = loads.edge_moments().find(id);
-              if (force != loads.edge_forces().end())
-                vectors_[f] -= force->second(point, instant_of(f));
-              if (moment != loads.edge_moments().end())
-                moments_[f] -= moment->second(point, instant_of(f));
+              vectors_[f] -=
+                load.force_at(point, edge_.conormal(0, q), instant_of(f));
+              moments_[f] -= load.moment_at(point, instant_of(f));
               if (rotates && is_linear_)
                 rotations_[f] -= (*edge->second.rotation)(point, instant_of(f));
             }

@@ -3,43 +3,10 @@
 
 #include <nacre/postprocess/residual_edges.h>
 
-#include <algorithm>
+#include <utility>
 
 namespace Nacre
 {
-  namespace
-  {
-    /** Shorter intervals of an edge, as a fraction of it, are round-off. */
-    constexpr double shortest_lip = 1e-9;
-
-    /** What the pieces to the neighbour leave of the side of a part. */
-    std::vector<EdgePiece>
-    lips_of(const EdgePiece &side, const std::vector<EdgePiece> &pieces)
-    {
-      std::vector<EdgePiece> rest{side};
-      for (const EdgePiece &piece : pieces)
-        if (piece.sides[0].part.index() == side.sides[0].part.index())
-          {
-            const auto            &meeting = piece.sides[0].interval;
-            std::vector<EdgePiece> next;
-            for (const EdgePiece &whole : rest)
-              {
-                EdgePiece before = whole, after = whole;
-                auto     &end   = before.sides[0].interval[1];
-                auto     &begin = after.sides[0].interval[0];
-                end             = std::min(end, meeting[0]);
-                begin           = std::max(begin, meeting[1]);
-                for (const EdgePiece &part : {before, after})
-                  if (part.sides[0].interval[1] - part.sides[0].interval[0] >
-                      shortest_lip)
-                    next.push_back(part);
-              }
-            rest = next;
-          }
-      return rest;
-    }
-  } // namespace
-
   bool
   is_taken_by_neighbor(const CellParts::Cell &cell, const unsigned int face)
   {
@@ -55,16 +22,18 @@ namespace Nacre
                   const CellParts::Cell &cell,
                   const unsigned int     face)
   {
-    std::vector<EdgePiece> pieces, result;
+    std::vector<EdgePiece> pieces;
     if (!cell->at_boundary(face))
-      pieces = parts.pieces_between(cell, face);
+      {
+        // The neighbours of a removed cell may be of any size.
+        if (parts.n_parts(cell) > 0 && !is_taken_by_neighbor(cell, face))
+          pieces = parts.pieces_between(cell, face);
+        return pieces;
+      }
     for (unsigned int i = 0; i < parts.n_parts(cell); ++i)
-      for (const auto &side : parts.pieces_of(parts.part(cell, i), face))
-        for (const auto &lip : lips_of(side, pieces))
-          result.push_back(lip);
-    if (!pieces.empty() && !is_taken_by_neighbor(cell, face))
-      result.insert(result.end(), pieces.begin(), pieces.end());
-    return result;
+      for (const auto &piece : parts.pieces_of(parts.part(cell, i), face))
+        pieces.push_back(piece);
+    return pieces;
   }
 
   FullMatrix<double>

@@ -316,6 +316,21 @@ namespace Nacre
   }
 
 
+  unsigned int
+  find_cut(const std::string &name, const Cuts &cuts, const std::string &where)
+  {
+    std::vector<std::string> names;
+    for (const CutCurve &curve : cuts.curves)
+      names.push_back(curve.name);
+    AssertThrow(!names.empty(),
+                ExcMessage(where + ": the shell has no cuts; 'Cuts/Cuts' "
+                                   "names them."));
+    const auto found = std::find(names.begin(), names.end(), name);
+    AssertThrow(found != names.end(),
+                ExcMessage(Text::unknown_name(where, "cut", name, names)));
+    return found - names.begin();
+  }
+
   CutParameters::CutParameters()
     : ParameterAcceptor("/Cuts")
   {

@@ -31,25 +31,13 @@ namespace Nacre
       return value;
     }
 
-    /** Take @p word from the end of @p text, if it stands there. */
-    bool
-    take_last_word(std::string &text, const std::string &word)
-    {
-      if (text.size() <= word.size() ||
-          text.compare(text.size() - word.size(), word.size(), word) != 0 ||
-          text[text.size() - word.size() - 1] != ' ')
-        return false;
-      text = Text::trim(text.substr(0, text.size() - word.size()));
-      return true;
-    }
-
     CellLength
     read_cell_length(const std::string &original,
                      const std::string &where,
                      const Constants   &constants)
     {
       std::string text     = Text::trim(original);
-      const bool  in_cells = take_last_word(text, "cells");
+      const bool  in_cells = Text::take_last_word(text, "cells");
       return {positive_number(text, where, constants), in_cells};
     }
 
@@ -68,20 +56,13 @@ namespace Nacre
     {
       const std::string where  = tips_parameter + ", '" + text + "'";
       std::string       name   = text;
-      const bool        at_end = take_last_word(name, "end");
-      AssertThrow(at_end || take_last_word(name, "begin"),
+      const bool        at_end = Text::take_last_word(name, "end");
+      AssertThrow(at_end || Text::take_last_word(name, "begin"),
                   ExcMessage(where + ": write 'CUT begin' or 'CUT end', the "
                                      "cut's first or last point."));
-      name = Text::unquoted(name);
-      std::vector<std::string> names;
-      for (const CutCurve &curve : cuts.curves)
-        names.push_back(curve.name);
-      const auto found = std::find(names.begin(), names.end(), name);
-      AssertThrow(found != names.end(),
-                  ExcMessage(Text::unknown_name(where, "cut", name, names)));
-      const unsigned int cut = found - names.begin();
+      const unsigned int cut = find_cut(Text::unquoted(name), cuts, where);
       AssertThrow(!cuts.curves[cut].is_closed,
-                  ExcMessage(where + ": the cut '" + name +
+                  ExcMessage(where + ": the cut '" + cuts.curves[cut].name +
                              "' is closed and has no ends; only open cuts "
                              "grow."));
       return {cut, at_end};

@@ -99,6 +99,12 @@ namespace Nacre
     for (const GrowingTip &tip : tips_)
       if (tip.is_alive)
         find(discretization, tip);
+    for (const CoarseCrack &crack : coarse_cracks(discretization))
+      for (const GrowingTip &tip : tips_)
+        AssertThrow(!tip.is_alive || tip.end.cut != crack.cut,
+                    ExcMessage("Growth/Tips, '" + tip.name +
+                               "': " + in_words(crack, problem_.model.cuts) +
+                               " (Study/Refinements)."));
   }
 
   void

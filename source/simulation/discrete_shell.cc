@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/log.h>
+#include <nacre/discretization/cut_growth.h>
 #include <nacre/discretization/removed_parts.h>
 #include <nacre/mechanics/elastic_plate.h>
 #include <nacre/multigrid/multigrid_solver.h>
@@ -84,10 +85,15 @@ namespace Nacre
                         problem.model.midsurface,
                         problem.model.supports,
                         problem.model.loads);
+    check_loaded_lips(discretization_, problem.model.cuts, problem.model.loads);
     // Inertia holds a shell as well.
     if (!problem.path.has_inertia())
       check_supports(conditions_, problem.model.cuts);
     warn_of_penalty(log);
+    if (!problem.growth.is_on())
+      for (const CoarseCrack &crack : coarse_cracks(discretization_))
+        log.warning("Cuts/Cuts: " + in_words(crack, problem.model.cuts) +
+                    " (Study/Refinements).");
     if (const auto *const openings = discretization_.tip_openings())
       for (const auto &remark : openings->remarks(problem.model.cuts))
         log.warning(remark);

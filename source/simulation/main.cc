@@ -124,6 +124,9 @@ namespace
                                         "Boundary conditions/Points",
                                         "Loads/Edge forces",
                                         "Loads/Edge moments",
+                                        "Loads/Lip forces",
+                                        "Loads/Lip moments",
+                                        "Loads/Lip pressures",
                                         "Loads/Point forces",
                                         "Quantities/Quantities"})
       {

@@ -165,7 +165,8 @@ namespace Nacre
     ShellProblem problem{{std::move(midsurface), *section_}};
     ShellModel  &model   = problem.model;
     model.supports       = supports_.make(model.midsurface, constants);
-    model.loads          = loads_.make(model.midsurface, constants);
+    model.cuts           = cuts_.make(constants, model.midsurface);
+    model.loads          = loads_.make(model.midsurface, constants, model.cuts);
     model.exact_solution = exact_solution_.make(constants);
     model.element        = element;
     model.mapping_degree = discretization_.mapping_degree();
@@ -173,7 +174,6 @@ namespace Nacre
     model.eta            = shell_case.eta;
     model.result_axes    = result_axes_.make(constants);
     model.foundation = foundation_.make(constants, model.midsurface.regions());
-    model.cuts       = cuts_.make(constants, model.midsurface);
 
     Expression load_factor = analysis_.load_factor(constants);
     problem.path           = analysis_.make(constants);

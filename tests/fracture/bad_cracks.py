@@ -3,6 +3,7 @@
 """Tips that are none, and plateaus that hold more than a straight crack;
 tests/parameters/bad_input.py runs them."""
 import pathlib
+import re
 
 WITH_GOOD_CASES = False
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "prm/fracture"
@@ -77,3 +78,13 @@ cut("cut_turns_in_cell", "K_I of crack end",
 cut("cut_beside_tip", "K_I of crack end radii 0.05, 0.2",
     ["another tip", "'other'"],
     "crack: uv (-i, -j) (i, j); other: uv (i, j + 0.05) (i, 0.9)", ())
+cut("crack_of_few_cells", "K_I of crack end radii 0.05, 0.3",
+    ["another tip", "the crack 'crack' runs through 2 cells", "4 at least",
+     "Study/Refinements"],
+    "crack: uv (0.01, 0.01) (0.15, 0.05)", ())
+case("lip_bent_in_large_rotations", "energy release rate of crack end",
+     ["a moment acts on a lip of the crack", "in linear kinematics only"],
+     {"Discretization/Kinematics": "finite", "Analysis/Type": "static",
+      "Constants": re.search(r"Constants = (.*?)\n\n", CUT, re.S)[1]
+      .replace("\\\n", "").replace("W = 1e3", "W = 1e9"),
+      "Loads/Lip moments": "crack: 1e-9"}, (), CUT)

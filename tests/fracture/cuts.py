@@ -30,6 +30,33 @@ def check(name, found, expected, tolerance):
               f"found {error:+.1e}")
 
 
+def loaded_lips(nacre):
+    """The infinite plate of inclined_cut.prm less its uniform stress along y,
+    whose tractions the lips carry."""
+    text = (cracks.PROJECT / "prm/fracture/inclined_cut.prm").read_text(
+        encoding="utf-8")
+    edges = " ".join(text.split("set Edges = ")[1].split("\nend")[0]
+                     .replace("\\\n", "").split())
+    edges = edges.replace(", y = ", " + m*x/W, y = ").replace(
+        ", z = ", " - y/W, z = ")
+    angle, a = math.pi / 6, .5
+    root = math.sqrt(math.pi * a) * math.cos(angle)
+    # h0 and W of the file
+    exact = dict(K_I=root * math.cos(angle), K_II=root * math.sin(angle),
+                 G=root**2 * .05 / 1e3)
+    check("loaded lips in an infinite plate",
+          nacre.run("inclined_cut.prm", None, {
+              "Boundary conditions/Edges": edges,
+              "Loads/Lip forces":
+                  "crack left: 0, h0*c, 0; crack right: 0, -h0*c, 0",
+              "Cuts/Tips": "branch functions", "Study/Degrees": "2",
+              "Mid-surface/Grading u": "s", "Mid-surface/Grading v": "s",
+              "Mid-surface/Subdivisions": "15",
+              "Quantities/Quantities":
+                  cracks.of_cut(".1, .45", ("K_I", "K_II"))}),
+          exact, 1e-4)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         nacre = cracks.Nacre(sys.argv[1], folder)
@@ -60,6 +87,7 @@ def main():
         ends = [solve(a=.5 + sign * step, size=.01)["U"] for sign in (1, -1)]
         slope = (ends[0] - ends[1]) / (2 * step)
         check("change of the energy", centre, dict(G=slope), 3e-3)
+        loaded_lips(nacre)
     sys.exit(1 if failures else 0)
 
 

@@ -137,3 +137,8 @@ case("growth_starts_in_motion", ["Growth/Release time", "Starting cracks"],
      Criterion="strength", Toughness="", Averaging_distance="0.2",
      Strength="1", Starting_cracks="1",
      **{"Analysis/Type": "dynamic", "Section/Density": "1"})
+case("growth_few_cells",
+     ["Growth/Tips, 'slit end'", "the crack 'slit' runs through 3 cells",
+      "4 at least", "Study/Refinements"],
+     **{"Cuts/Cuts": "slit: uv (0.4, 0.5) (0.6, 0.5); hole: uv closed "
+                     "(0.6, 0.1) (0.9, 0.1) (0.9, 0.3)"})

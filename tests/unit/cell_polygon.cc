@@ -207,13 +207,15 @@ BOOST_AUTO_TEST_CASE(one_chain)
   BOOST_TEST(have_areas(parts, {.3, .7}));
   BOOST_TEST(parts[0].area() < 0.5); // the lower one comes first
   unsigned int n_lips = 0;
-  for (unsigned int i = 0; i < parts[0].n_vertices(); ++i)
-    if (parts[0].side(i).face == numbers::invalid_unsigned_int)
-      {
-        ++n_lips;
-        BOOST_TEST(parts[0].side(i).cut == 7);
-      }
-  BOOST_TEST(n_lips == 2);
+  for (unsigned int k = 0; k < 2; ++k)
+    for (unsigned int i = 0; i < parts[k].n_vertices(); ++i)
+      if (parts[k].side(i).face == numbers::invalid_unsigned_int)
+        {
+          ++n_lips;
+          BOOST_TEST(parts[k].side(i).cut == 7);
+          BOOST_TEST(parts[k].side(i).is_left == (k == 1));
+        }
+  BOOST_TEST(n_lips == 4);
   // face 0 runs upwards at x = 0
   BOOST_TEST(parts[0].intervals(0)[0][1] == .2);
   BOOST_TEST(parts[1].intervals(0)[0][0] == .2);

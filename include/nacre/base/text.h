@@ -47,6 +47,10 @@ namespace Nacre::Text
   std::string
   quoted(const std::string &name);
 
+  /** Take @p word from the end of @p text, if it stands there behind others. */
+  bool
+  take_last_word(std::string &text, const std::string &word);
+
   /** Those of @p names that fit into a message: "a, b and 7 others". */
   std::string
   list(const std::vector<std::string> &names);

@@ -105,6 +105,25 @@ namespace Nacre
   };
 
   /**
+   * A straight piece of a lip: a side of a part along which a cut runs, within
+   * the cell or along one of its edges.
+   */
+  struct CutLip
+  {
+    /** In the reference cell. */
+    Point<dim> begin;
+    /** From there to the other end; the part lies on the left. */
+    Tensor<1, dim> along;
+    /** Number of the cut. */
+    unsigned int cut;
+    /**
+     * Whether the part lies on the left of who walks along the cut on the side
+     * of t0.
+     */
+    bool is_left;
+  };
+
+  /**
    * An interval of an edge in which two parts of neighbouring cells meet, or
    * in which a part meets the boundary.
    */

@@ -112,6 +112,14 @@ namespace Nacre
     std::vector<EdgePiece>
     pieces_of(const CellPart &part, const unsigned int face) const;
 
+    /**
+     * The lips of a part; of the part in which a tip with functions lies, those
+     * behind the tip, too. Where several cuts run along a side, it is a lip of
+     * the first one.
+     */
+    std::vector<CutLip>
+    lips(const CellPart &part) const;
+
     /** Make a whole cell a touched one. */
     void
     touch(const Cell &cell);
@@ -159,7 +167,13 @@ namespace Nacre
       std::vector<PartData> parts;
       /** By face: intervals along which a cut runs. */
       std::vector<std::vector<std::array<double, 2>>> opened;
+      std::vector<std::vector<CutOpening>>            openings;
     };
+
+    void
+    add_lips_on_face(const CellPart      &part,
+                     const unsigned int   face,
+                     std::vector<CutLip> &lips) const;
 
     void
     make_entry(const Cell &cell, const CutTrace &trace);

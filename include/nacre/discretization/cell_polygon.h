@@ -24,6 +24,24 @@ namespace Nacre
     unsigned int cut;
   };
 
+  /** An interval of a face of a cell along which a cut runs. */
+  struct CutOpening
+  {
+    /** As CellPolygon::intervals(). */
+    double begin, end;
+    /** Number of the cut. */
+    unsigned int cut;
+    /** Whether the cut runs from the begin to the end. */
+    bool is_forward;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &begin &end &cut &is_forward;
+    }
+  };
+
   /**
    * A part of a reference cell between cuts. Its vertices run
    * counterclockwise; it may be non-convex and may touch itself in a vertex.
@@ -40,6 +58,11 @@ namespace Nacre
       unsigned int face;
       /** Number of the cut of a lip; else invalid_unsigned_int. */
       unsigned int cut;
+      /**
+       * Of a lip: whether the cut runs along the side, so that the polygon
+       * lies on the left of the cut.
+       */
+      bool is_left = false;
     };
 
     /** Vertices between two sides in one line on the same are left out. */

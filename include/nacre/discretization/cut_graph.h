@@ -69,7 +69,7 @@ namespace Nacre
 
     const CellPolygon      &polygon_;
     std::vector<Point<dim>> nodes_;
-    /** The first node is the smaller one. */
+    /** The first node is the smaller one; sides are those of its way. */
     std::map<Edge, Side> edges_;
     /** Nodes around each face, which lies to the left. */
     std::vector<std::vector<unsigned int>> cycles_;

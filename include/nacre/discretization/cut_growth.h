@@ -9,6 +9,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace Nacre
 {
@@ -22,6 +24,22 @@ namespace Nacre
   /** The longest edge of the cell in which a tip ends (length). Collective. */
   double
   cell_size_at(const Discretization &discretization, const CutTrace::Tip &tip);
+
+  /** A crack whose both tips lie inside of the surface. */
+  struct CoarseCrack
+  {
+    unsigned int cut;
+    /** Those through which, or along whose edges, the cut runs. */
+    unsigned int n_cells;
+  };
+
+  /** The cracks of fewer than four cells. Collective. */
+  std::vector<CoarseCrack>
+  coarse_cracks(const Discretization &discretization);
+
+  /** "the crack 'CUT' runs through N cells, ...", and what to do. */
+  std::string
+  in_words(const CoarseCrack &crack, const Cuts &cuts);
 
   /** What becomes of a tip that has advanced. */
   struct TipAdvance

@@ -91,6 +91,14 @@ namespace Nacre
       return opened_[active_cell_index][face];
     }
 
+    /** The same by cut, and in its order; those of one cut may overlap. */
+    const std::vector<CutOpening> &
+    openings(const unsigned int active_cell_index,
+             const unsigned int face) const
+    {
+      return openings_[active_cell_index][face];
+    }
+
     /** The same on all ranks, by cut and the begin first. */
     const std::vector<Tip> &
     tips() const
@@ -114,6 +122,7 @@ namespace Nacre
 
     std::vector<std::vector<CutChain>>                           chains_;
     std::vector<std::vector<std::vector<std::array<double, 2>>>> opened_;
+    std::vector<std::vector<std::vector<CutOpening>>>            openings_;
     std::vector<Tip>                                             tips_;
     std::vector<Line>                                            lines_;
   };

@@ -4,6 +4,7 @@
 #ifndef nacre_discretization_part_enrichment_h
 #define nacre_discretization_part_enrichment_h
 
+#include <nacre/discretization/cell_polygon.h>
 #include <nacre/discretization/shape_table.h>
 #include <nacre/discretization/tip_functions.h>
 
@@ -59,6 +60,9 @@ namespace Nacre
       /** Backward along the crack; where the tip lies inside. */
       Tensor<1, dim> backward;
       bool           holds_tip = false;
+      /** Number of the tip's cut, and whether the tip is its end. */
+      unsigned int cut    = numbers::invalid_unsigned_int;
+      bool         at_end = false;
 
       unsigned int
       n_functions() const
@@ -82,14 +86,21 @@ namespace Nacre
     /**
      * The functions psi_k at a point, appended to @p result.
      * @param q the point's number in @p shapes and @p geometry
+     * @param lip of a point on a lip in the cell that holds the tip, which is
+     *   on its left: CutLip::along
      */
     void
     evaluate(const ShapeTable              &shapes,
              const GeometryTable::Values   &geometry,
              const unsigned int             q,
              const Point<dim>              &unit,
-             std::vector<FieldDerivatives> &result) const;
+             std::vector<FieldDerivatives> &result,
+             const Tensor<1, dim>          &lip = {}) const;
   };
+
+  /** Where the crack enters the part that holds its tip. */
+  Point<dim>
+  crack_entry(const PartEnrichment::Share &share, const CellPolygon &outline);
 
   /**
    * A rule of a part that has tip functions: in cells near to a tip, triangles

@@ -31,6 +31,15 @@ namespace Nacre
                       const Midsurface         &midsurface,
                       const BoundaryConditions &supports,
                       const Loads              &loads);
+
+  /**
+   * Throws if a lip that has loads has no place in the mesh: the cut opens
+   * nothing, or that side of it has been taken away. Collective.
+   */
+  void
+  check_loaded_lips(const Discretization &discretization,
+                    const Cuts           &cuts,
+                    const Loads          &loads);
 } // namespace Nacre
 
 #endif

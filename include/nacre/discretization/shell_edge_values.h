@@ -68,12 +68,9 @@ namespace Nacre
     void
     reinit(const EdgePiece &piece);
 
-    /**
-     * A lip of a part: the side @p i of its polygon. It has one side, without
-     * a face.
-     */
+    /** One of CellParts::lips(): one side, without a face. */
     void
-    reinit_lip(const CellPart &part, const unsigned int i);
+    reinit_lip(const CellPart &part, const CutLip &lip);
 
     /**
      * Call @p use(*this) for each piece of the edge that @p cell shares with an
@@ -309,12 +306,14 @@ namespace Nacre
      * @param along the edge in the reference cell, its length included
      * @param outward whether along x normal points outward (+1) or inward (-1)
      * @param share of the edge
+     * @param is_lip whether along is CutLip::along
      */
     void
     evaluate(const unsigned int    side,
              const Tensor<1, dim> &along,
              const double          outward,
-             const double          share);
+             const double          share,
+             const bool            is_lip = false);
 
     bool
     reinit_to_neighbor(const cell_iterator &cell, const unsigned int face);
@@ -340,9 +339,12 @@ namespace Nacre
     void
     resize();
 
-    /** The tip functions of a side, and room for their dofs. */
+    /**
+     * The tip functions of a side, and room for their dofs.
+     * @param lip as PartEnrichment::evaluate()
+     */
     void
-    evaluate_tip_functions(const unsigned int side);
+    evaluate_tip_functions(const unsigned int side, const Tensor<1, dim> &lip);
 
     /** Number the dofs of both sides, shared ones once. */
     void

@@ -72,6 +72,13 @@ namespace Nacre
       uses_tip_functions_ = uses;
     }
 
+    /** The points lie on a lip, as PartEnrichment::evaluate() takes it. */
+    void
+    use_lip(const Tensor<1, dim> &lip)
+    {
+      lip_ = lip;
+    }
+
     /** Frames and rows of the linear strains; of tying frames a_cov only. */
     void
     reinit(const CellPart &part);
@@ -252,6 +259,7 @@ namespace Nacre
     const Points          points_;
     bool                  projects_;
     bool                  uses_tip_functions_ = true;
+    Tensor<1, dim>        lip_;
     const Tables          of_cell_;
     std::optional<Tables> of_part_;
 

@@ -56,7 +56,7 @@ namespace Nacre
     add_on_cell(TermCell &cell, LocalTerms &terms) const override;
   };
 
-  /** Forces and moments per length of boundary edges. */
+  /** Forces and moments per length of boundary edges and of lips of cuts. */
   class EdgeLoadTerm : public LoadTerm
   {
   public:
@@ -69,6 +69,14 @@ namespace Nacre
 
     void
     add_on_boundary(const TermEdge &edge, LocalTerms &terms) const override;
+
+    bool
+    acts_on_lips() const override;
+
+    void
+    add_on_lip(const TermEdge &edge,
+               const CutLip   &lip,
+               LocalTerms     &terms) const override;
   };
 
   /** Forces at points. */

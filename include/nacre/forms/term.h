@@ -94,8 +94,9 @@ namespace Nacre
 
   /**
    * A part of the shell's virtual work: what a cell, an edge between two cells,
-   * a boundary edge or a point adds to the residual F(u) - f (force), to its
-   * derivative (force/length) and to the energy. A load adds -f.
+   * a boundary edge, a lip of a cut or a point adds to the residual F(u) - f
+   * (force), to its derivative (force/length) and to the energy. A load adds
+   * -f.
    *
    * Terms hold no state of the shell and no time. Assembly sums up those of
    * make_terms().
@@ -141,6 +142,19 @@ namespace Nacre
 
     virtual void
     add_on_boundary(const TermEdge & /*edge*/, LocalTerms & /*terms*/) const
+    {}
+
+    virtual bool
+    acts_on_lips() const
+    {
+      return false;
+    }
+
+    /** @param edge the lip's points, with one side */
+    virtual void
+    add_on_lip(const TermEdge & /*edge*/,
+               const CutLip & /*lip*/,
+               LocalTerms & /*terms*/) const
     {}
 
     /**

@@ -6,6 +6,7 @@
 
 #include <nacre/discretization/shell_edge_values.h>
 #include <nacre/postprocess/crack_points.h>
+#include <nacre/problem/loads.h>
 
 #include <array>
 
@@ -24,6 +25,17 @@ namespace Nacre
                   const unsigned int     side,
                   const unsigned int     q,
                   const CrackPoints     &points);
+
+    /**
+     * Of the point @p q of a lip.
+     * @param tangent, outward as below
+     */
+    CrackEdgeSide(const CrackTip       &tip,
+                  const CrackPlateau   &plateau,
+                  const CrackPoints    &points,
+                  const unsigned int    q,
+                  const Tensor<1, dim> &tangent,
+                  const double          outward);
 
     SurfacePatch      surface;
     CrackExtension    extension;
@@ -58,6 +70,26 @@ namespace Nacre
                      const std::array<CrackEdgeSide, 2> &sides,
                      const double                        penalty,
                      const double                        length);
+
+  /**
+   * d/ds at s = 0 of the work of a dead load of a lip, per length of the
+   * undeformed lip (force), as its points move and carry the displacement u
+   * along:
+   *
+   *   [(f - p nu) . u - m theta(u)] |d + s d.dq|,
+   *
+   * with the load's f, p and m at the moved point and theta of (N.11), the
+   * rotation of linear kinematics.
+   *
+   * @param u (length); side.u are its derivatives
+   * @param length over which q varies
+   */
+  double
+  lip_work_change(const LineLoad            &load,
+                  const Instant             &instant,
+                  const CrackEdgeSide       &side,
+                  const Tensor<1, spacedim> &u,
+                  const double               length);
 } // namespace Nacre
 
 #endif

@@ -22,6 +22,8 @@ namespace Nacre
     double part_is_left;
     /** Of the surface's boundary; none: a lip of a cut. */
     std::optional<types::boundary_id> edge;
+    /** Number of the cut, and whether the part lies on its left. */
+    std::pair<unsigned int, bool> cut;
   };
 
   /** The free sides of a part: of the boundary, and lips of cuts. */

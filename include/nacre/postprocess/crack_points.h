@@ -26,8 +26,14 @@ namespace Nacre
   class CrackPoints
   {
   public:
-    /** @param shell must live as long @param points in the reference cell */
-    CrackPoints(const SolvedShell &shell, const Quadrature<dim> &points);
+    /**
+     * @param shell must live as long
+     * @param points in the reference cell
+     * @param lip on which they lie, as PartEnrichment::evaluate() takes it
+     */
+    CrackPoints(const SolvedShell     &shell,
+                const Quadrature<dim> &points,
+                const Tensor<1, dim>  &lip = {});
 
     void
     reinit(const CellPart &part);

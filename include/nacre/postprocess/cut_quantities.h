@@ -51,10 +51,6 @@ namespace Nacre
   /** "length", "opening" */
   const Selection<CutQuantity::Kind> &selection(CutQuantity::Kind);
 
-  /** The number of the cut of a name; throws if there is none. */
-  unsigned int
-  find_cut(const std::string &name, const Cuts &cuts, const std::string &where);
-
   /**
    * The quantity that a @p phrase begins with the name of, or none. Throws for
    * what isn't understood, and for a cut that isn't among @p cuts.

@@ -6,6 +6,7 @@
 
 #include <nacre/postprocess/crack_extension.h>
 #include <nacre/postprocess/shell_state.h>
+#include <nacre/problem/loads.h>
 
 #include <array>
 #include <functional>
@@ -24,11 +25,11 @@ namespace Nacre
    * mid-surface:
    *
    *   G = -d/ds [sum int W(s) j0(s) det(1 + s dq) dxi + sum int W^e(s) ds]
-   *       - int F . u,g q^g dA + int_lips d/ds (f . u ds),
+   *       - int F . u,g q^g dA + int_lips d/ds [(f . u - m theta(u)) ds],
    *
    * with energy_change() of the cells and edge_energy_change() of the edges
-   * between them, CrackExtension's q, the force F per area and the
-   * force f per length of the lips. The second term is what -d/ds of the
+   * between them, CrackExtension's q, the force F per area and the force f and
+   * the moment m per length of the lips. The second term is what -d/ds of the
    * potential -int f . u becomes by partial integration; it holds for a
    * pressure that follows, too. In dynamics F holds the forces of inertia: what
    * the kinetic energy changes by is a divergence, without q beyond the
@@ -41,8 +42,8 @@ namespace Nacre
      * Throws on all ranks if between the tip and the plateau's end there is
      * anything but one smooth sheet with a straight crack: other edges, cuts
      * and tips, the crack's other end, creases, other regions, supports or
-     * forces at points, supports or moments at the lips; and of modes and with
-     * a foundation. Collective.
+     * forces at points, supports at the lips, moments there unless kinematics
+     * are linear; and of modes and with a foundation. Collective.
      */
     EnergyRelease(const SolvedShell  &shell,
                   const CrackTip     &tip,
@@ -95,13 +96,16 @@ namespace Nacre
       const unsigned int q;
       /** Of the surface's boundary; none: a lip of a cut. */
       const std::optional<types::boundary_id> edge;
-      /** The tangent x,t (length) along the lip. */
-      Tensor<1, 3> tangent;
-      /** q^t, the velocity along it. */
-      double velocity;
-      /** (q^t |x,t|),t times the weight. */
+      /** What acts on the lip. */
+      const LineLoad load;
+      /** Along the lip in the reference cell, of length 1 on the surface. */
+      Tensor<1, dim> tangent;
+      /** As CrackEdgeSide::outward. */
+      double outward;
+      /** Length element times weight (length). */
+      double length;
+      /** What a length changes by as q moves it, times the weight (1). */
       double divergence;
-      double weight;
       /** The velocity's component out of the lip. */
       double across;
       /** Positive on the side of e_2. */

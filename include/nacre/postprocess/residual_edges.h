@@ -23,8 +23,7 @@ namespace Nacre
 
   /**
    * What a cell takes of an edge that is met in pieces: those to its
-   * neighbour, unless is_taken_by_neighbor(); those on the boundary; and the
-   * lips of a cut that runs along the edge, which have one side.
+   * neighbour, unless is_taken_by_neighbor(), or those on the boundary.
    */
   std::vector<EdgePiece>
   residual_pieces(const CellParts       &parts,

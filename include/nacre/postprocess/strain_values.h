@@ -34,6 +34,15 @@ namespace Nacre
                  const Quadrature<dim> &points,
                  const bool             spread = false);
 
+    /** Points on a lip, as PartEnrichment::evaluate() takes it. */
+    StrainValues(const ShellState      &state,
+                 const Quadrature<dim> &points,
+                 const Tensor<1, dim>  &lip)
+      : StrainValues(state, points)
+    {
+      values_->use_lip(lip);
+    }
+
     void
     reinit(const CellPart &part);
 

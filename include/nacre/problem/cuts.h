@@ -85,6 +85,10 @@ namespace Nacre
     }
   };
 
+  /** The number of the cut of a name; throws if there is none. */
+  unsigned int
+  find_cut(const std::string &name, const Cuts &cuts, const std::string &where);
+
   /** The section Cuts of a parameter file. */
   class CutParameters : public ParameterAcceptor
   {

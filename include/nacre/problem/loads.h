@@ -5,10 +5,12 @@
 #define nacre_problem_loads_h
 
 #include <nacre/base/expression.h>
+#include <nacre/problem/cuts.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +26,39 @@ namespace Nacre
     VectorExpression force;
     std::string      source;
   };
+
+  /** What acts along an edge or a lip of a cut; null: nothing. */
+  struct LineLoad
+  {
+    /** Along x, y, z (force/length). */
+    const VectorExpression *force = nullptr;
+    /** m_nn (force): l(v) = -int m theta(v) ds. */
+    const Expression *moment = nullptr;
+    /** Against the outward conormal, which opens a cut (force/length). */
+    const Expression *pressure = nullptr;
+
+    bool
+    is_zero() const
+    {
+      return force == nullptr && moment == nullptr && pressure == nullptr;
+    }
+
+    /** Force and pressure (force/length) at an edge of outward @p conormal. */
+    Tensor<1, 3>
+    force_at(const Point<3>     &point,
+             const Tensor<1, 3> &conormal,
+             const Instant      &instant) const;
+
+    /** The moment (force). */
+    double
+    moment_at(const Point<3> &point, const Instant &instant) const;
+  };
+
+  /**
+   * A lip of a cut: the cut's number, and whether the lip lies on its left, as
+   * CutLip says.
+   */
+  using LipOfCut = std::pair<unsigned int, bool>;
 
   /**
    * Loads, functions of the points of the undeformed surface and of the time:
@@ -52,6 +87,16 @@ namespace Nacre
 
     void
     set_edge_moment(const types::boundary_id id, Expression &&moment);
+
+    /** Those of a lip, as LineLoad; second calls replace the first. */
+    void
+    set_lip_force(const LipOfCut &lip, VectorExpression &&force);
+
+    void
+    set_lip_moment(const LipOfCut &lip, Expression &&moment);
+
+    void
+    set_lip_pressure(const LipOfCut &lip, Expression &&pressure);
 
     void
     add_point_force(PointForce &&force)
@@ -107,6 +152,23 @@ namespace Nacre
       return edge_moments_;
     }
 
+    LineLoad
+    on_edge(const types::boundary_id id) const;
+
+    LineLoad
+    on_lip(const LipOfCut &lip) const;
+
+    /** The lips that have loads. */
+    std::set<LipOfCut>
+    loaded_lips() const;
+
+    bool
+    has_lip_loads() const
+    {
+      return !(lip_forces_.empty() && lip_moments_.empty() &&
+               lip_pressures_.empty());
+    }
+
     const std::vector<PointForce> &
     point_forces() const
     {
@@ -116,6 +178,9 @@ namespace Nacre
   private:
     std::map<types::boundary_id, VectorExpression> edge_forces_;
     std::map<types::boundary_id, Expression>       edge_moments_;
+    std::map<LipOfCut, VectorExpression>           lip_forces_;
+    std::map<LipOfCut, Expression>                 lip_moments_;
+    std::map<LipOfCut, Expression>                 lip_pressures_;
     std::vector<PointForce>                        point_forces_;
   };
 
@@ -125,21 +190,34 @@ namespace Nacre
   public:
     LoadParameters();
 
-    /** Read the loads; throws for unknown edges and malformed expressions. */
+    /**
+     * Read the loads; throws for unknown edges and cuts and malformed
+     * expressions.
+     */
     Loads
-    make(const Midsurface &midsurface, const Constants &constants) const;
+    make(const Midsurface &midsurface,
+         const Constants  &constants,
+         const Cuts       &cuts = Cuts()) const;
 
     /** The edges that have loads, as the parameters name them. */
     std::vector<std::string>
     named_edges() const;
 
   private:
+    void
+    make_lip_loads(const Cuts      &cuts,
+                   const Constants &constants,
+                   Loads           &loads) const;
+
     std::string force_text_    = "0, 0, 0";
     std::string gravity_text_  = "0, 0, 0";
     std::string pressure_text_ = "0";
     bool        follows_       = false;
     std::string edge_forces_text_;
     std::string edge_moments_text_;
+    std::string lip_forces_text_;
+    std::string lip_moments_text_;
+    std::string lip_pressures_text_;
     std::string point_forces_text_;
   };
 } // namespace Nacre
