@@ -134,23 +134,6 @@ namespace Nacre
       return (x - begin) * along / along.norm_square();
     }
 
-    /** Where the ray from the tip backward along the crack meets the side. */
-    double
-    entry_on(const Point<dim>            &begin,
-             const Point<dim>            &end,
-             const PartEnrichment::Share &share)
-    {
-      const auto   along = end - begin;
-      const auto  &d     = share.backward;
-      const double cross = along[0] * d[1] - along[1] * d[0];
-      if (std::abs(cross) < PlaneGeometry::round_off * d.norm())
-        return -1.;
-      const auto   to_tip = share.tip - begin;
-      const double s      = (to_tip[0] * d[1] - to_tip[1] * d[0]) / cross;
-      const auto   x      = begin + s * along;
-      return (x - share.tip) * d > 0. ? s : -1.;
-    }
-
     /** Of a convex polygon, vertices counterclockwise. */
     void
     append_near_tip(const std::vector<Point<dim>> &vertices,
@@ -184,7 +167,10 @@ namespace Nacre
           const auto         &begin = vertices[i], &end = vertices[(i + 1) % n];
           std::vector<double> breaks{coordinate_on(begin, end, apex)};
           if (share.holds_tip)
-            breaks.push_back(entry_on(begin, end, share));
+            breaks.push_back(PlaneGeometry::ray_on_line(share.tip,
+                                                        share.backward,
+                                                        begin,
+                                                        end));
           std::sort(breaks.begin(), breaks.end());
           double last = 0.;
           breaks.push_back(1.);
