@@ -446,12 +446,21 @@ def near(value, reference):
 
 def tip_fields(nacre):
     """Williams' fields around as displacements."""
-    head("p", "cells", "K_I", "K_II", "K_M", "K_T")
-    for degree, n in (2, 16), (2, 32), (3, 12), (3, 24):
-        found = nacre.run("williams_fields.prm", None, {
-            "Study/Degrees": degree, "Mid-surface/Subdivisions": n})
-        line(degree, n * n, *(off(found["ratio" + mode]) for mode in
-                              ("", "_K_II", "_K_M", "_K_T")))
+    head("p", "cells", "tip radius", "K_I", "K_II", "K_M", "K_T")
+    text = (PROJECT / "prm/fracture/williams_fields.prm").read_text(
+        encoding="utf-8")
+    wanted = text.split("set Quantities = ")[1].split("\nend")[0].replace(
+        "\\\n", "")
+    for radius, radii in (0, "0.15, 0.7"), (0.5, "0.55, 0.93"):
+        for degree, n in (2, 16), (2, 32), (2, 64), (3, 12), (3, 24):
+            found = nacre.run("williams_fields.prm", None, {
+                "Study/Degrees": degree, "Mid-surface/Subdivisions": n,
+                "Cuts/Tip radius": radius,
+                "Quantities/Quantities":
+                " ".join(wanted.replace("0.15, 0.7", radii).split())})
+            line(degree, n * n, radius, *(
+                off(found["ratio" + mode])
+                for mode in ("", "_K_II", "_K_M", "_K_T")))
 
 
 def tip_places(nacre):

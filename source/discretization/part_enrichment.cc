@@ -137,23 +137,6 @@ namespace Nacre
       return (x - begin) * along / along.norm_square();
     }
 
-    /** Where the ray from the tip backward along the crack meets the side. */
-    double
-    entry_on(const Point<dim>            &begin,
-             const Point<dim>            &end,
-             const PartEnrichment::Share &share)
-    {
-      const auto   along = end - begin;
-      const auto  &d     = share.backward;
-      const double cross = along[0] * d[1] - along[1] * d[0];
-      if (std::abs(cross) < PlaneGeometry::round_off * d.norm())
-        return -1.;
-      const auto   to_tip = share.tip - begin;
-      const double s      = (to_tip[0] * d[1] - to_tip[1] * d[0]) / cross;
-      const auto   x      = begin + s * along;
-      return (x - share.tip) * d > 0. ? s : -1.;
-    }
-
   } // namespace
 
   Point<dim>
@@ -165,7 +148,8 @@ namespace Nacre
       {
         const auto  &begin = outline.vertex(i);
         const auto  &end   = outline.vertex((i + 1) % outline.n_vertices());
-        const double s     = entry_on(begin, end, share);
+        const double s =
+          PlaneGeometry::ray_on_line(share.tip, share.backward, begin, end);
         if (s < -PlaneGeometry::snap_distance ||
             s > 1. + PlaneGeometry::snap_distance)
           continue;
@@ -215,7 +199,10 @@ namespace Nacre
           const auto         &begin = vertices[i], &end = vertices[(i + 1) % n];
           std::vector<double> breaks{coordinate_on(begin, end, apex)};
           if (share.holds_tip)
-            breaks.push_back(entry_on(begin, end, share));
+            breaks.push_back(PlaneGeometry::ray_on_line(share.tip,
+                                                        share.backward,
+                                                        begin,
+                                                        end));
           std::sort(breaks.begin(), breaks.end());
           double last = 0.;
           breaks.push_back(1.);

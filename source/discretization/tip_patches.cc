@@ -45,7 +45,7 @@ namespace Nacre
     run_on_all_ranks(dof_handler_.get_communicator(),
                      [&]() { find_frames(cuts); });
     share_frames();
-    find_vertices();
+    find_vertices(cuts.tip_radius);
     check(cuts);
     for (unsigned int t = 0; t < tips.size(); ++t)
       {
@@ -54,7 +54,7 @@ namespace Nacre
           TipFunctions::branch_functions(patch.frame,
                                          patch.poissons_ratio,
                                          patch.size));
-        make_path(lines, t);
+        make_path(lines, cuts.tip_radius + 8. * patch.size, t);
       }
     check_bends(cuts);
     for (const auto &cell : dof_handler_.active_cell_iterators())
@@ -124,7 +124,7 @@ namespace Nacre
   }
 
   void
-  TipPatches::find_vertices()
+  TipPatches::find_vertices(const double radius)
   {
     const MPI_Comm communicator = dof_handler_.get_communicator();
     for (Patch &patch : patches_)
@@ -134,11 +134,15 @@ namespace Nacre
           if (cell->is_locally_owned())
             {
               const auto is_one = vertices_in(patch.tip_vertices, cell);
-              if (std::find(is_one.begin(), is_one.end(), true) != is_one.end())
-                for (const auto v : cell->vertex_indices())
-                  patch.ring_vertices.insert(cell->vertex_dof_index(v, 0));
+              const bool touches =
+                std::find(is_one.begin(), is_one.end(), true) != is_one.end();
+              const auto nodes = positions_(CellPart(cell));
+              // The first nodes of a cell are those of its vertices.
+              for (const auto v : cell->vertex_indices())
+                if (touches || nodes[v].distance(patch.frame.position) < radius)
+                  patch.whole_vertices.insert(cell->vertex_dof_index(v, 0));
             }
-        patch.ring_vertices = joined_sets(patch.ring_vertices, communicator);
+        patch.whole_vertices = joined_sets(patch.whole_vertices, communicator);
       }
   }
 
@@ -154,7 +158,7 @@ namespace Nacre
   bool
   TipPatches::is_in(const Patch &patch, const Cell &cell) const
   {
-    const auto is_one = vertices_in(patch.ring_vertices, cell);
+    const auto is_one = vertices_in(patch.whole_vertices, cell);
     return std::find(is_one.begin(), is_one.end(), true) != is_one.end();
   }
 
@@ -211,24 +215,49 @@ namespace Nacre
                               (cell->neighbor(face)->is_active() &&
                                cell->neighbor(face)->level() == cell->level()),
                             ExcMessage(where(cuts, t) +
-                                       " need cells of one size within two "
-                                       "cells of it; refine there."));
+                                       " need cells of one size around it, "
+                                       "and one cell beyond those in which "
+                                       "they are whole; refine there."));
+              check_turn(cuts, t, cell);
               for (unsigned int s = 0; s < tips_.size(); ++s)
                 AssertThrow(s == t || cell->id() != tips_[s].cell,
                             ExcMessage(where(cuts, t) + " reach the tip of '" +
                                        cuts.curves[tips_[s].cut].name +
-                                       "', nearer than three cells; refine "
-                                       "the mesh."));
+                                       "', nearer than three cells or "
+                                       "'Cuts/Tip radius'; refine the mesh, or "
+                                       "choose a smaller radius."));
             }
     });
   }
 
   void
+  TipPatches::check_turn(const Cuts        &cuts,
+                         const unsigned int t,
+                         const Cell        &cell) const
+  {
+    // Nearer cells are those that hold the crack's end, whatever they are.
+    const Patch &patch = patches_[t];
+    const auto   x =
+      surface_at(scalar_fe_,
+                 positions_(CellPart(cell)),
+                 cell->reference_cell().template barycenter<dim>());
+    if (Point<spacedim>(x.value).distance(patch.frame.position) <
+        2. * patch.size)
+      return;
+    const auto normal = cross_product_3d(x.first[0], x.first[1]);
+    AssertThrow(normal * patch.frame.axes[2] > 0.5 * normal.norm(),
+                ExcMessage(where(cuts, t) +
+                           " are fields of its tangent plane, and within "
+                           "'Cuts/Tip radius' the surface turns by more than "
+                           "60 degrees; choose a smaller radius."));
+  }
+
+  void
   TipPatches::make_path(const std::vector<CutTrace::Line> &lines,
+                        const double                       radius,
                         const unsigned int                 t)
   {
-    Patch       &patch  = patches_[t];
-    const double radius = 8. * patch.size;
+    Patch &patch = patches_[t];
     // Ends of the segments near to the tip
     std::vector<Point<spacedim>> mine;
     for (const auto &line : lines)
@@ -358,7 +387,7 @@ namespace Nacre
       std::find(at_tip.begin(), at_tip.end(), true) != at_tip.end();
 
     // Vertices of quadrilaterals: (0, 0), (1, 0), (0, 1), (1, 1).
-    const auto chi  = vertices_in(patch.ring_vertices, part.cell);
+    const auto chi  = vertices_in(patch.whole_vertices, part.cell);
     share.cutoff[0] = chi[0];
     share.cutoff[1] = double(chi[1]) - double(chi[0]);
     share.cutoff[2] = double(chi[2]) - double(chi[0]);

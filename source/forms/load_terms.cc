@@ -190,8 +190,9 @@ namespace Nacre
         AssertThrow(place.part.enrichment() == nullptr,
                     ExcMessage(
                       "Loads: a point force lies within two cells of "
-                      "the tip of a cut that has functions there; "
-                      "refine the mesh, or choose 'Cuts/Tips = closed'."));
+                      "the tip of a cut, or within 'Cuts/Tip radius' of it, "
+                      "where it has functions; refine the mesh, or choose "
+                      "'Cuts/Tips = closed'."));
         dealii::Vector<double> local(dofs.size());
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)

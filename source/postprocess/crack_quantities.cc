@@ -117,7 +117,8 @@ namespace Nacre
       find_tip_of(shell.discretization, shell.model.cuts, quantity);
     const EnergyRelease release(shell,
                                 tip,
-                                quantity.plateau.value_or(default_plateau(tip)),
+                                quantity.plateau.value_or(
+                                  default_plateau(tip, shell.model.cuts)),
                                 quantity.where);
     using Kind = CrackQuantity::Kind;
     switch (quantity.kind)

@@ -41,7 +41,7 @@ namespace Nacre
   {
     part_                 = part;
     const bool was_spread = is_spread_;
-    is_spread_            = spread_ && part.is_cut();
+    is_spread_            = spread_ && has_blocks(part);
     if (is_spread_)
       set_points(Quadrature<dim>(points_on_part(part, points_.get_points())));
     else if (was_spread)

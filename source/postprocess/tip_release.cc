@@ -7,9 +7,11 @@
 namespace Nacre
 {
   CrackPlateau
-  default_plateau(const CrackTip &tip)
+  default_plateau(const CrackTip &tip, const Cuts &cuts)
   {
-    return {(tip.has_functions ? 1.5 : 2.) * tip.cell_size, 6. * tip.cell_size};
+    const double radius = tip.has_functions ? cuts.tip_radius : 0.;
+    return {radius + (tip.has_functions ? 1.5 : 2.) * tip.cell_size,
+            radius + 6. * tip.cell_size};
   }
 
   TipRelease
@@ -18,7 +20,7 @@ namespace Nacre
                       const std::optional<CrackPlateau> &plateau,
                       const std::string                 &where)
   {
-    TipRelease          result{plateau.value_or(default_plateau(tip)),
+    TipRelease result{plateau.value_or(default_plateau(tip, shell.model.cuts)),
                       shell.model.section.thickness(tip.position),
                       0.};
     const EnergyRelease release(shell, tip, result.plateau, where);

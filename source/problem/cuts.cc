@@ -379,6 +379,16 @@ namespace Nacre
                   "with coefficients of their own; for Kinematics = linear and "
                   "a homogeneous isotropic section, with the direct solver.",
                   prm);
+    add_parameter("Tip radius",
+                  tip_radius_,
+                  "Distance from a tip up to which branch functions are whole; "
+                  "in the cells that touch the tip's cell they are whatever it "
+                  "is. With 0 that zone shrinks as a mesh is refined, and the "
+                  "error of stress intensities with the size of the cells; "
+                  "with a zone that remains it shrinks with the order of the "
+                  "degree. Units: length.",
+                  prm,
+                  Patterns::Double(0.));
   }
 
 
@@ -399,6 +409,12 @@ namespace Nacre
     result.snap          = snap_;
     result.smallest_part = smallest_part_;
     result.tips          = tips_;
+    result.tip_radius    = tip_radius_;
+    AssertThrow(tip_radius_ == 0. || tips_ == CutTips::branch_functions,
+                ExcMessage("Cuts/Tip radius: found " +
+                           Text::number(tip_radius_) +
+                           " with 'Tips = " + name_of(tips_) +
+                           "'; only branch functions have a radius."));
     std::map<std::string, std::string> known;
     for (const auto &entry : Text::entries(cuts_text_,
                                            cuts_parameter,

@@ -35,6 +35,18 @@ case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
       "Loads/Edge moments": ""})
 case("near", ["Cuts/Tips", "'crack'", "reach the tip of", "refine"],
      {"Cuts/Cuts": "crack: uv (-0.2, 0.003) (0.2, 0.003)"})
+case("radius_to_other_tip", ["Cuts/Tips", "'crack'", "'Cuts/Tip radius'",
+                             "smaller radius"], {"Cuts/Tip radius": "1.1"})
+case("radius_of_closed_tip", ["Cuts/Tip radius", "0.3", "'Tips = closed'",
+                              "branch functions"],
+     {"Cuts/Tip radius": "0.3", "Cuts/Tips": "closed"}, ["--check"])
+case("radius_of_bent_surface", ["Cuts/Tips", "'Cuts/Tip radius'",
+                                "60 degrees", "smaller radius"],
+     {"Cuts/Tip radius": "0.9", "Mid-surface/expression/Position":
+      "sin(2*u)/2, v, (1 - cos(2*u))/2", "Quantities/Quantities": "",
+      "Cuts/Cuts": "crack: uv (-1.1, 0.003) (0, 0.003)",
+      "Loads/Edge moments": "", "Boundary conditions/Points": "",
+      "Boundary conditions/Edges": "v=0: fixed"})
 case("point_force", ["Loads", "two cells of the tip", "'Cuts/Tips = closed'"],
      {"Loads/Point forces": "(0.55, 0.2, 0): 0, 0, 1"})
 case("cycles", ["Adaptive refinement/Cycles", "branch functions"],

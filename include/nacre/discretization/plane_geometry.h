@@ -8,6 +8,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <cmath>
+
 namespace Nacre
 {
   /** Points, segments and triangles in a reference cell, of size 1. */
@@ -42,6 +44,25 @@ namespace Nacre
       const Tensor<1, dim> ab = b - a;
       const double         t  = ((x - a) * ab) / ab.norm_square();
       return t <= 0. ? a : t >= 1. ? b : Point<dim>(a + t * ab);
+    }
+
+    /**
+     * Where the ray from @p origin along @p d meets the line through @p a and
+     * @p b: 0 at a, 1 at b; -1 if it doesn't.
+     */
+    inline double
+    ray_on_line(const Point<dim>     &origin,
+                const Tensor<1, dim> &d,
+                const Point<dim>     &a,
+                const Point<dim>     &b)
+    {
+      const Tensor<1, dim> ab    = b - a;
+      const double         cross = ab[0] * d[1] - ab[1] * d[0];
+      if (std::abs(cross) < round_off * d.norm())
+        return -1.;
+      const Tensor<1, dim> to_origin = origin - a;
+      const double s = (to_origin[0] * d[1] - to_origin[1] * d[0]) / cross;
+      return (s * ab - to_origin) * d > 0. ? s : -1.;
     }
   } // namespace PlaneGeometry
 } // namespace Nacre

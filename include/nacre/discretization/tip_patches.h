@@ -21,10 +21,11 @@ namespace Nacre
 {
   /**
    * The cells around the tips of cuts that have tip functions. The cut-off chi
-   * is 1 on the tip's cell and on all cells that share a vertex with it, and
-   * linear, or bilinear, down to 0 in the cells around those: the
-   * interpolation error F - I_h F alone is blended, and the cells beside the
-   * edge on which the discrete crack closes have F whole.
+   * is 1 on the tip's cell, on all cells that share a vertex with it and at
+   * vertices nearer to the tip than Cuts::tip_radius, and linear, or bilinear,
+   * down to 0 in the cells around: the interpolation error F - I_h F alone is
+   * blended, and the cells beside the edge on which the discrete crack closes
+   * have F whole.
    */
   class TipPatches
   {
@@ -35,8 +36,9 @@ namespace Nacre
 
     /**
      * Collective. Makes the cells of the patches touched ones. Throws if a
-     * patch has cells of several sizes or holds the tip's cell of another cut,
-     * and if a cut turns in the cell in which it ends.
+     * patch has cells of several sizes, holds the tip's cell of another cut or
+     * turns by more than 60 degrees, and if a cut turns in the cell in which it
+     * ends.
      * @param positions (length) of the nodes of a part
      */
     TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
@@ -94,12 +96,13 @@ namespace Nacre
     /** A tip, known to all ranks. */
     struct Patch
     {
-      unsigned int                        owner = numbers::invalid_unsigned_int;
-      TipFunctions::Tip                   frame;
-      double                              poissons_ratio = 0.;
-      double                              size           = 0.;
-      std::set<Dof>                       tip_vertices;
-      std::set<Dof>                       ring_vertices;
+      unsigned int      owner = numbers::invalid_unsigned_int;
+      TipFunctions::Tip frame;
+      double            poissons_ratio = 0.;
+      double            size           = 0.;
+      std::set<Dof>     tip_vertices;
+      /** Where chi = 1. */
+      std::set<Dof>                       whole_vertices;
       std::shared_ptr<const TipFunctions> functions;
       /** From the tip backward along the cut. */
       std::vector<Point<spacedim>> path;
@@ -114,11 +117,16 @@ namespace Nacre
     void
     share_frames();
 
+    /** @param radius up to which chi = 1 */
     void
-    find_vertices();
+    find_vertices(const double radius);
 
     void
     check(const Cuts &cuts) const;
+
+    /** Whether the surface around a tip is nearly its tangent plane. */
+    void
+    check_turn(const Cuts &cuts, const unsigned int t, const Cell &cell) const;
 
     void
     check_bends(const Cuts &cuts) const;
@@ -127,8 +135,11 @@ namespace Nacre
     std::string
     where(const Cuts &cuts, const unsigned int t) const;
 
+    /** @param radius (length) that the path is to reach */
     void
-    make_path(const std::vector<CutTrace::Line> &lines, const unsigned int t);
+    make_path(const std::vector<CutTrace::Line> &lines,
+              const double                       radius,
+              const unsigned int                 t);
 
     /** Of the patch's vertices, in the cell. */
     std::vector<bool>

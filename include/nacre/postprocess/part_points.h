@@ -11,10 +11,18 @@
 namespace Nacre
 {
   /**
-   * Points spread over a part of a divided cell. The part consists of blocks,
-   * one convex quadrilateral or triangles, and each is the image of the
-   * reference cell: a triangle that of a quadrilateral whose last two vertices
-   * are one.
+   * Whether a part isn't shown as a whole cell: it is one of a divided cell, or
+   * the crack goes on inside of it up to a tip that has functions.
+   */
+  bool
+  has_blocks(const CellPart &part);
+
+  /**
+   * Points spread over a part that has_blocks(). It consists of one convex
+   * quadrilateral or of triangles, those around the tip if one lies inside, and
+   * each is the image of the reference cell: a triangle that of a quadrilateral
+   * whose last two vertices are one. Points at a crack that ends inside of the
+   * cell are those of the lip of their triangle.
    * @param points in the reference cell
    * @return their images on all blocks, one block after the other; of whole
    *   cells the @p points themselves

@@ -27,8 +27,8 @@ namespace Nacre
     /**
      * @param state must live as long
      * @param points in the reference cell
-     * @param spread whether the points are spread over parts of divided cells,
-     *   as points_on_part() does
+     * @param spread whether the points are spread over parts that
+     *   has_blocks(), as points_on_part() does
      */
     StrainValues(const ShellState      &state,
                  const Quadrature<dim> &points,

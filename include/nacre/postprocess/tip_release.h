@@ -36,9 +36,13 @@ namespace Nacre
     HoopStress hoop_stress = {};
   };
 
-  /** The radii that are taken if none are given. */
+  /**
+   * The radii that are taken if none are given: 2 and 6 cells at the tip; 1.5
+   * and 6 beyond Cuts::tip_radius where displacements have tip functions,
+   * whose blending isn't to be felt.
+   */
   CrackPlateau
-  default_plateau(const CrackTip &tip);
+  default_plateau(const CrackTip &tip, const Cuts &cuts);
 
   /**
    * What the tip of a crack releases, and its intensities. See EnergyRelease

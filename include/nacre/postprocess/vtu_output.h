@@ -20,9 +20,9 @@ namespace Nacre
    * The fields of a solved shell on this rank's cells, at (p + 1)^2 equidistant
    * points of each: the nodes of VTK's Lagrange cells. A part of a divided cell
    * has such points on each of the quadrilaterals and triangles that make it
-   * up (points_on_part()), so that cuts open. Stresses are those of
-   * each cell by itself, not smoothed. deal.II's writers of all formats work on
-   * it.
+   * up (points_on_part()), so that cuts open, and so has the cell in which a
+   * tip with functions lies. Stresses are those of each cell by itself, not
+   * smoothed. deal.II's writers of all formats work on it.
    *
    * | field | meaning | units |
    * |---|---|---|

@@ -69,6 +69,11 @@ namespace Nacre
     double  smallest_part = 0.25;
     CutTips tips          = CutTips::closed;
     /**
+     * Distance (length) from a tip up to which its branch functions are whole;
+     * they are so in the cells that touch the tip's cell in any case.
+     */
+    double tip_radius = 0.;
+    /**
      * Poisson's ratio at a tip, on which tips' functions depend. It throws if
      * the section has none and they are branch functions. Axes e_1, e_2:
      * tangent, orthogonal, of length 1.
@@ -116,6 +121,7 @@ namespace Nacre
     double      snap_          = Cuts().snap;
     double      smallest_part_ = Cuts().smallest_part;
     CutTips     tips_          = Cuts().tips;
+    double      tip_radius_    = Cuts().tip_radius;
 
     MPI_Comm    communicator_ = MPI_COMM_SELF;
     std::string folder_;
