@@ -4,8 +4,8 @@
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
+#include <nacre/discretization/part_transfer.h>
 #include <nacre/simulation/adaptive_refinement.h>
-#include <nacre/simulation/displacement_transfer.h>
 #include <nacre/simulation/growth_monitor.h>
 #include <nacre/simulation/path_monitor.h>
 #include <nacre/simulation/path_quantities.h>
@@ -360,26 +360,25 @@ namespace Nacre
   void
   PathRun::refine(const QuantitiesOfInterest &quantities, PathState &state)
   {
-    std::unique_ptr<DiscreteShell::Mesh> mesh;
-    std::optional<DisplacementTransfer>  transfer;
-    double                               estimated = 0.;
+    std::optional<PartTransfer>      transfer;
+    std::optional<std::vector<bool>> marked;
+    double                           estimated = 0.;
     {
       const SolvedState solved(state, *stepped_);
       const auto        estimate = adaptive_.estimate(solved.shell(), {});
-      const auto        marked   = adaptive_.mark(estimate, solved.shell());
+      marked                     = adaptive_.mark(estimate, solved.shell());
       if (!marked)
         return;
       estimated = estimate.value;
       transfer.emplace(stepped_->shell.discretization(),
                        std::vector<const TrilinosWrappers::MPI::Vector *>{
                          &solved.shell().displacement,
-                         solved.shell().velocity},
-                       *marked);
+                         solved.shell().velocity});
     }
     assembly_seconds_ += stepped_->system.assembly_seconds();
-    mesh = stepped_->shell.release_mesh();
+    auto mesh = stepped_->shell.release_mesh();
     stepped_.reset();
-    transfer->refine(*mesh);
+    transfer->refine(*mesh, *marked);
     stepped_ = std::make_unique<SteppedShell>(communicator_,
                                               problem_,
                                               quantities,
