@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace Nacre
@@ -76,19 +77,7 @@ namespace Nacre
   bool
   CellPolygon::contains(const Point<dim> &x, const double tolerance) const
   {
-    // A ray along xi1 leaves the inside through an odd number of sides.
-    bool inside = false;
-    for (unsigned int i = 0; i < n_vertices(); ++i)
-      {
-        const Point<dim> &a = vertices_[i];
-        const Point<dim> &b = vertices_[(i + 1) % n_vertices()];
-        if (nearest_on_segment(a, b, x).distance(x) <= tolerance)
-          return true;
-        if ((a[1] > x[1]) != (b[1] > x[1]) &&
-            (twice_area(a, b, x) > 0.) == (b[1] > a[1]))
-          inside = !inside;
-      }
-    return inside;
+    return distance_to_polygon(vertices_, x) <= tolerance;
   }
 
   Point<dim>
@@ -131,6 +120,25 @@ namespace Nacre
       else
         merged.push_back(piece);
     return merged;
+  }
+
+  double
+  distance_to_polygon(const std::vector<Point<dim>> &vertices,
+                      const Point<dim>              &x)
+  {
+    // A ray along xi1 leaves the inside through an odd number of sides.
+    bool   inside  = false;
+    double nearest = std::numeric_limits<double>::max();
+    for (unsigned int i = 0; i < vertices.size(); ++i)
+      {
+        const Point<dim> &a = vertices[i];
+        const Point<dim> &b = vertices[(i + 1) % vertices.size()];
+        nearest = std::min(nearest, nearest_on_segment(a, b, x).distance(x));
+        if ((a[1] > x[1]) != (b[1] > x[1]) &&
+            (twice_area(a, b, x) > 0.) == (b[1] > a[1]))
+          inside = !inside;
+      }
+    return inside ? 0. : nearest;
   }
 
   namespace

@@ -442,9 +442,7 @@ namespace Nacre
   Point<spacedim>
   Discretization::point_inside(const CellPart &part) const
   {
-    const Point<dim> unit  = part.is_cut() ?
-                               part.polygon().inner_point() :
-                               element_.reference_cell().barycenter<dim>();
+    const Point<dim> unit  = part.inner_point();
     const auto       nodes = geometry_nodes(part);
     Point<spacedim>  x;
     for (unsigned int b = 0; b < nodes.size(); ++b)

@@ -175,11 +175,8 @@ namespace Nacre
     Candidate
     make_candidate(const Discretization &mesh, const NearCell &near)
     {
-      const auto middle =
-        near.part.is_cut() ?
-          near.part.polygon().inner_point() :
-          mesh.element().reference_cell().template barycenter<dim>();
-      const auto nodes = mesh.node_positions(near.part);
+      const auto middle = near.part.inner_point();
+      const auto nodes  = mesh.node_positions(near.part);
       return {near.part.cell->id(),
               near.part.data != nullptr ? near.part.data->number : 0,
               near.position,

@@ -295,10 +295,8 @@ namespace Nacre
   {
     if (holds_tip(tips_[t], part))
       return 0;
-    const Patch     &patch = patches_[t];
-    const Point<dim> unit =
-      part.is_cut() ? part.polygon().inner_point() :
-                      part.cell->reference_cell().template barycenter<dim>();
+    const Patch          &patch = patches_[t];
+    const Point<dim>      unit  = part.inner_point();
     const Point<spacedim> x(
       surface_at(scalar_fe_, positions_(part), unit).value);
     if (!is_cut && (x - patch.frame.position) * patch.frame.axes[0] > 0.)

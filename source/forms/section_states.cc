@@ -204,4 +204,28 @@ namespace Nacre
       }
     send_to_ghosts(discretization);
   }
+
+  std::function<PointValues(const CellPart &)>
+  SectionStates::of_rules() const
+  {
+    if (has_none())
+      return {};
+    return [this](const CellPart &part) {
+      const auto found = states_.find(key_of(part, inside));
+      return found == states_.end() ? PointValues() : found->second.front();
+    };
+  }
+
+  void
+  SectionStates::take(const Discretization &discretization,
+                      const PartTransfer   &transfer)
+  {
+    states_.clear();
+    if (has_none())
+      return;
+    for (const CellPart &part : discretization.owned_parts())
+      if (auto values = transfer.points_of(part); !values.points.empty())
+        states_[key_of(part, inside)].push_back(std::move(values));
+    send_to_ghosts(discretization);
+  }
 } // namespace Nacre

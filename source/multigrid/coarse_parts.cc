@@ -2,14 +2,12 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/discretization.h>
+#include <nacre/discretization/part_transfer.h>
 #include <nacre/multigrid/coarse_parts.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/distributed/shared_tria.h>
-
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
 
 #include <deal.II/grid/cell_id.h>
 
@@ -22,9 +20,6 @@ namespace Nacre
   {
     using Mesh          = parallel::TriangulationBase<dim, spacedim>;
     using cell_iterator = Triangulation<dim, spacedim>::cell_iterator;
-
-    constexpr unsigned int n_children =
-      GeometryInfo<dim>::max_children_per_cell;
 
     /** The active cell of @p mesh that is the cell @p id or holds it. */
     cell_iterator
@@ -111,18 +106,6 @@ namespace Nacre
     };
 
 
-    /** The number of the part of a cell that holds @p x or is next to it. */
-    unsigned int
-    part_at(const std::vector<PartData> &parts, const Point<dim> &x)
-    {
-      for (double tolerance = 1e-10; tolerance < 2.; tolerance *= 2.)
-        for (unsigned int i = 0; i < parts.size(); ++i)
-          if (!parts[i].polygon || parts[i].polygon->contains(x, tolerance))
-            return i;
-      return 0;
-    }
-
-
     CoarsePart
     part_of(const Discretization        &coarse,
             const std::vector<ChildMap> &maps,
@@ -138,16 +121,20 @@ namespace Nacre
       Assert(cell->level() == int(path.size()) ||
                cell->level() + 1 == int(path.size()),
              ExcMessage("The coarse cell is not the parent."));
-      result.map =
-        cell->level() == int(path.size()) ? n_children : path[path.size() - 1];
+      result.map = cell->level() == int(path.size()) ? ChildMap::identity :
+                                                       path[path.size() - 1];
       const CellParts &parts = coarse.cell_parts();
       if (parts.n_parts(dof_cell) == 0)
         return result;
       CellPart part = parts.part(dof_cell);
       if (parts.is_touched(dof_cell))
-        part = parts.part(dof_cell,
-                          part_at(parts.parts(dof_cell),
-                                  maps[result.map].to_parent(fine.inside)));
+        {
+          std::vector<Outline> outlines;
+          for (unsigned int i = 0; i < parts.n_parts(dof_cell); ++i)
+            outlines.push_back(outline_of(parts.part(dof_cell, i)));
+          const Point<dim> x = maps[result.map].to_parent(fine.inside);
+          part = parts.part(dof_cell, nearest_outline(outlines, x).first);
+        }
       result.is_cut = part.is_cut();
       coarse.get_dof_indices(part, result.dofs);
       return result;
@@ -155,56 +142,20 @@ namespace Nacre
   } // namespace
 
 
-  std::vector<ChildMap>
-  child_maps(const ReferenceCell &cell)
-  {
-    // The linear functions of the parent at the vertices of a child
-    std::unique_ptr<FiniteElement<dim>> linear;
-    if (cell == ReferenceCells::Quadrilateral)
-      linear = std::make_unique<FE_Q<dim>>(1);
-    else
-      linear = std::make_unique<FE_SimplexP<dim>>(1);
-    std::vector<ChildMap> maps(n_children + 1);
-    for (unsigned int child = 0; child < n_children; ++child)
-      {
-        const auto &P      = linear->get_prolongation_matrix(child);
-        const auto  vertex = [&](const unsigned int v) {
-          Point<dim> x;
-          for (const unsigned int w : cell.vertex_indices())
-            x += P(v, w) * cell.vertex<dim>(w);
-          return x;
-        };
-        ChildMap &map = maps[child];
-        map.origin    = vertex(0);
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int c = 0; c < dim; ++c)
-            map.jacobian[c][d] = vertex(d + 1)[c] - map.origin[c];
-      }
-    for (unsigned int d = 0; d < dim; ++d)
-      maps[n_children].jacobian[d][d] = 1.;
-    return maps;
-  }
-
-
   std::vector<CoarsePart>
   find_coarse_parts(const Discretization &fine, const Discretization &coarse)
   {
     const CellOwners   owners(coarse.triangulation());
-    const auto         comm   = fine.communicator();
-    const unsigned int me     = Utilities::MPI::this_mpi_process(comm);
-    const auto         kind   = fine.element().reference_cell();
-    const auto         maps   = child_maps(kind);
-    const auto         middle = kind.barycenter<dim>();
+    const auto         comm = fine.communicator();
+    const unsigned int me   = Utilities::MPI::this_mpi_process(comm);
+    const auto         maps = child_maps(fine.element().reference_cell());
 
     std::vector<CoarsePart>                       found;
     std::map<unsigned int, std::vector<FinePart>> questions;
     for (const CellPart &part : fine.owned_parts())
       {
         const unsigned int place = found.size();
-        const FinePart     question{place,
-                                part.cell->id(),
-                                part.is_cut() ? part.polygon().inner_point() :
-                                                    middle};
+        const FinePart     question{place, part.cell->id(), part.inner_point()};
         const unsigned int owner = owners(question.cell);
         found.emplace_back();
         if (owner == me)

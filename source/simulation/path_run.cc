@@ -4,8 +4,8 @@
 #include <nacre/base/cpu_timer.h>
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
+#include <nacre/discretization/part_transfer.h>
 #include <nacre/simulation/adaptive_refinement.h>
-#include <nacre/simulation/displacement_transfer.h>
 #include <nacre/simulation/growth_monitor.h>
 #include <nacre/simulation/path_monitor.h>
 #include <nacre/simulation/path_quantities.h>
@@ -363,13 +363,13 @@ namespace Nacre
   void
   PathRun::refine(const QuantitiesOfInterest &quantities, PathState &state)
   {
-    std::unique_ptr<DiscreteShell::Mesh> mesh;
-    std::optional<DisplacementTransfer>  transfer;
-    double                               estimated = 0.;
+    std::optional<PartTransfer>      transfer;
+    std::optional<std::vector<bool>> marked;
+    double                           estimated = 0.;
     {
       const SolvedState solved(state, *stepped_);
       const auto        estimate = adaptive_.estimate(solved.shell(), {});
-      const auto        marked   = adaptive_.mark(estimate, solved.shell());
+      marked                     = adaptive_.mark(estimate, solved.shell());
       if (!marked)
         return;
       estimated = estimate.value;
@@ -377,13 +377,12 @@ namespace Nacre
                        std::vector<const TrilinosWrappers::MPI::Vector *>{
                          &solved.shell().displacement,
                          solved.shell().velocity},
-                       stepped_->shell.assembly().section_states(),
-                       *marked);
+                       stepped_->shell.assembly().section_states().of_rules());
     }
     assembly_seconds_ += stepped_->system.assembly_seconds();
-    mesh = stepped_->shell.release_mesh();
+    auto mesh = stepped_->shell.release_mesh();
     stepped_.reset();
-    transfer->refine(*mesh);
+    transfer->refine(*mesh, *marked);
     stepped_ = std::make_unique<SteppedShell>(communicator_,
                                               problem_,
                                               quantities,
@@ -397,8 +396,7 @@ namespace Nacre
          << discretization.triangulation().n_global_active_cells() << " cells, "
          << discretization.n_dofs() << " dofs";
     log_.progress() << text.str() << std::endl;
-    transfer->set_states(discretization,
-                         stepped_->shell.assembly().section_states());
+    stepped_->shell.assembly().section_states().take(discretization, *transfer);
     state.motion.u              = transfer->field_on(discretization, 0);
     state.motion.v              = transfer->field_on(discretization, 1);
     state.motion.a              = stepped_->system.owned_vector();

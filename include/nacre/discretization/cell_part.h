@@ -86,6 +86,14 @@ namespace Nacre
       return is_cut() ? polygon() : CellPolygon::whole(cell->reference_cell());
     }
 
+    /** A point inside, in the reference cell. */
+    Point<dim>
+    inner_point() const
+    {
+      return is_cut() ? polygon().inner_point() :
+                        cell->reference_cell().template barycenter<dim>();
+    }
+
     /** Its tip functions; null: none. */
     const PartEnrichment *
     enrichment() const

@@ -92,6 +92,12 @@ namespace Nacre
       return vertices_[i];
     }
 
+    const std::vector<Point<dim>> &
+    vertices() const
+    {
+      return vertices_;
+    }
+
     const Side &
     side(const unsigned int i) const
     {
@@ -134,6 +140,11 @@ namespace Nacre
     std::vector<Point<dim>> vertices_;
     std::vector<Side>       sides_;
   };
+
+  /** How far @p x is away from a polygon; 0 inside. */
+  double
+  distance_to_polygon(const std::vector<Point<dim>> &vertices,
+                      const Point<dim>              &x);
 
   /**
    * The parts of a reference cell that chains cut all together. Chains may

@@ -4,6 +4,7 @@
 #ifndef nacre_forms_section_states_h
 #define nacre_forms_section_states_h
 
+#include <nacre/discretization/part_transfer.h>
 #include <nacre/discretization/shell_edge_values.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/section_law.h>
@@ -125,13 +126,6 @@ namespace Nacre
       std::vector<Point<dim>> points;
       std::vector<double>     values;
 
-      /** Whether the points are those of the rule of a cell. */
-      bool
-      is_of_rule() const
-      {
-        return face == inside;
-      }
-
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
@@ -154,24 +148,24 @@ namespace Nacre
     take(const Discretization      &discretization,
          const std::vector<Record> &records);
 
+    /** The states of a cell's rule, for PartTransfer. */
+    std::function<PointValues(const CellPart &)>
+    of_rules() const;
+
+    /**
+     * Take what @p transfer brings of the mesh before: all points take the
+     * nearest of their cell's rule there. Collective.
+     */
+    void
+    take(const Discretization &discretization, const PartTransfer &transfer);
+
   private:
     /** Active cell index, part, and face or inside. */
     using Key = std::array<unsigned int, 3>;
 
-    struct Entry
-    {
-      std::vector<Point<dim>> points;
-      /** [q][variable] */
-      std::vector<double> values;
+    using Entry = PointValues;
 
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &points &values;
-      }
-    };
-
+    /** Values: [q][variable] */
     using Entries = std::map<Key, std::vector<Entry>>;
 
     static Key

@@ -4,42 +4,15 @@
 #ifndef nacre_multigrid_coarse_parts_h
 #define nacre_multigrid_coarse_parts_h
 
-#include <nacre/base/types.h>
+#include <nacre/discretization/child_map.h>
 
-#include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
 #include <deal.II/base/types.h>
-
-#include <deal.II/grid/reference_cell.h>
 
 #include <vector>
 
 namespace Nacre
 {
   class Discretization;
-
-  /** The affine map of a child's reference cell into its parent's. */
-  struct ChildMap
-  {
-    Point<dim>     origin;
-    Tensor<2, dim> jacobian;
-
-    Point<dim>
-    to_parent(const Point<dim> &x) const
-    {
-      return origin + jacobian * x;
-    }
-
-    Point<dim>
-    to_child(const Point<dim> &x) const
-    {
-      return Point<dim>(invert(jacobian) * (x - origin));
-    }
-  };
-
-  /** The maps of all children of a cell, and the identity at the end. */
-  std::vector<ChildMap>
-  child_maps(const ReferenceCell &cell);
 
   /** The part of a coarse mesh that holds a part of a finer one. */
   struct CoarsePart
