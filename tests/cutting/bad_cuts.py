@@ -159,13 +159,9 @@ def lips(name, expect, load, cuts="slit: uv (1.2, -0.1) (1.3, 0.6)",
 
 lips("lip_unknown_cut", ["Loads/Lip forces, 'slot left'", "unknown cut 'slot'",
                          "'slit'"], "slot left: 0, 0, 1")
-lips("lip_without_cuts", ["Loads/Lip forces, 'slit'", "the shell has no cuts",
-                          "'Cuts/Cuts' names them"], "slit: 0, 0, 1", cuts="")
 lips("lip_twice", ["the left lip of the cut 'slit' has a load already",
                    "as a part of 'slit left'"],
      "slit left: 0, 0, 1; slit: 0, 0, 2")
-lips("lip_two_components", ["Loads/Lip forces, 'slit left'", "0, 1"],
-     "slit left: 0, 1")
 lips("lip_closed", ["the cut 'slit' has no right lip", "no cell is open",
                     "name the other side, 'CUT left'"],
      "slit: 0, 0, 1", cuts="slit: uv (0.75, 0.5) (0.9, 0.5)")
