@@ -158,7 +158,7 @@ main(int argc, char *argv[])
   test_refusal({"Analysis/Type=dynamic",
                 "Section/Density=1",
                 "Analysis/Scheme=energy momentum"},
-               "choose another scheme");
+               "Scheme: 'energy momentum'");
   test_refusal({"Analysis/Type=vibration", "Analysis/Start from=other"},
                "choose static or another path");
   test_refusal({"Analysis/Start from=other"}, "go on with --restart");
