@@ -350,23 +350,10 @@ namespace Nacre
       const auto   &frame  = edge.frame(s, q);
       const auto   &shapes = edge.shapes(s);
       const double  sigma  = edge.sigma(s, q);
+      const bool    linear = section.is_linear();
       const auto    dyad   = ShellStrain::dyad_of(frame, edge.conormal(s, q));
-      SectionBlocks blocks(section, frame, edge.point(q, s), 1., states_[s][q]);
-      const Voigt<Number> E = membrane != nullptr ?
-                                membrane->tied_strain(edge.tying(s), q) :
-                                Voigt<Number>();
-      Voigt<Number>       kappa;
-      if (!section.is_linear())
-        {
-          kappa =
-            CorotationalStrain::bending(frame,
-                                        deformed_frame(frame, shapes, q, u));
-          blocks.evaluate(E, kappa);
-        }
-      const Voigt<> H_nu = blocks.D * dyad;
-      if (blocks.is_coupled)
-        side.coupling = sigma * (blocks.B * dyad);
-      const auto d0 =
+      const Voigt<> H_nu   = ask_section(edge, s, q, section, u, membrane);
+      const auto    d0 =
         cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
       side.tau         = {{d0 * frame.a_con[0], d0 * frame.a_con[1]}};
       side.jump_factor = s == 0 ? -1. : 1.; // plus - minus
@@ -390,10 +377,10 @@ namespace Nacre
           side.Y += side.rows[2][a] * u[a];
         }
       deform(side, frame, displacement_gradient(shapes, q, u), sigma);
-      if (!section.is_linear())
-        side.moment = sigma * (dyad * blocks.moment(E, kappa));
-      else if (membrane != nullptr)
-        side.moment += side.coupling * E;
+      if (linear)
+        side.moment = side.initial_moment - side.Y * side.normal;
+      if (linear && membrane != nullptr)
+        side.moment += side.coupling * membrane->tied_strain(edge.tying(s), q);
       if (section.has_initial_strain())
         side.moment -= initial_moment(edge, s, q, section, instant_);
       const std::array<Number, 2> nu_con = {
@@ -406,13 +393,44 @@ namespace Nacre
           side.rows[1][a] = nu_con[0] * dN[0] + nu_con[1] * dN[1];
         }
       const Voigt<> H_rest =
-        section.is_linear() ?
-          H_nu :
-          section.stiffness(frame, edge.point(q, s)).bending * dyad;
+        linear ? H_nu :
+                 section.stiffness(frame, edge.point(q, s)).bending * dyad;
       return side.mean_factor * (dyad * H_rest);
     }
 
-    /** The deformed frame of the side, lambda and m_nn. */
+    /**
+     * Sets c of a side's point, and m_nn of laws that aren't linear, at the
+     * strains of now. Returns h = D(nu0, nu0).
+     */
+    Voigt<>
+    ask_section(const ShellEdgeValues               &edge,
+                const unsigned int                   s,
+                const unsigned int                   q,
+                const SectionLaw                    &section,
+                const NodeVectors<Number>           &u,
+                const TiedGreenStrain<Number> *const membrane)
+    {
+      const auto   &frame = edge.frame(s, q);
+      const auto    dyad  = ShellStrain::dyad_of(frame, edge.conormal(s, q));
+      const double  sigma = edge.sigma(s, q);
+      SectionBlocks blocks(section, frame, edge.point(q, s), 1., states_[s][q]);
+      if (!section.is_linear())
+        {
+          Voigt<Number> E;
+          if (membrane != nullptr)
+            E = membrane->tied_strain(edge.tying(s), q);
+          const auto kappa = CorotationalStrain::bending(
+            frame,
+            deformed_frame(frame, edge.shapes(s), q, u));
+          blocks.evaluate(E, kappa);
+          sides_[s].moment = sigma * (dyad * blocks.moment(E, kappa));
+        }
+      if (blocks.is_coupled)
+        sides_[s].coupling = sigma * (blocks.B * dyad);
+      return blocks.D * dyad;
+    }
+
+    /** The deformed frame of the side, and lambda. */
     static void
     deform(Side                        &side,
            const SurfaceFrame<>        &frame,
@@ -430,7 +448,6 @@ namespace Nacre
       side.normal   = sigma * side.deformed.t0;
       side.conormal = cross_product_3d(side.normal, side.tangent);
       side.lambda   = side.deformed.j0 / (frame.j0 * side.length);
-      side.moment   = side.initial_moment - side.Y * side.normal;
     }
 
     /** From @p t to @p t_plus about @p d. */

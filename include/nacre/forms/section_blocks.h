@@ -59,13 +59,14 @@ namespace Nacre
         return;
       if constexpr (std::is_same<Number, double>::value)
         {
-          answer = law.response(membrane, bending, frame, point, state.values);
+          const SectionResponse answer =
+            law.response(membrane, bending, frame, point, state.values);
           if (state.is_updated)
             law.update_state(membrane, bending, frame, point, state.values);
           set_tangent(answer.tangent);
-          answer.membrane_force *= weight;
-          answer.moment *= weight;
-          answer.energy *= weight;
+          n_answered = weight * answer.membrane_force;
+          m_answered = weight * answer.moment;
+          w_answered = weight * answer.energy;
         }
       else
         Assert(false, ExcNotImplemented());
@@ -77,7 +78,7 @@ namespace Nacre
     force(const Voigt<Number> &membrane, const Voigt<Number> &bending) const
     {
       if (!is_linear)
-        return Voigt<Number>(answer.membrane_force);
+        return Voigt<Number>(n_answered);
       Voigt<Number> n = A * membrane;
       if (is_coupled)
         n += B * bending;
@@ -90,7 +91,7 @@ namespace Nacre
     moment(const Voigt<Number> &membrane, const Voigt<Number> &bending) const
     {
       if (!is_linear)
-        return Voigt<Number>(answer.moment);
+        return Voigt<Number>(m_answered);
       Voigt<Number> m = D * bending;
       if (is_coupled)
         m += transpose(B) * membrane;
@@ -112,8 +113,8 @@ namespace Nacre
     other_energies(const Voigt<> &membrane, const Voigt<> &bending) const
     {
       if (!is_linear)
-        return {{answer.energy - 0.5 * (answer.membrane_force * membrane) -
-                   0.5 * (answer.moment * bending),
+        return {{w_answered - 0.5 * (n_answered * membrane) -
+                   0.5 * (m_answered * bending),
                  0.}};
       return {
         {initial.membrane_energy - 0.5 * (initial.membrane_force * membrane),
@@ -144,8 +145,9 @@ namespace Nacre
     double                weight;
     PointState            state;
     bool                  is_linear;
-    /** Of evaluate(), weight included but for its tangent. */
-    SectionResponse answer;
+    /** Of evaluate(), weight included. */
+    Voigt<> n_answered, m_answered;
+    double  w_answered = 0.;
   };
 } // namespace Nacre
 
