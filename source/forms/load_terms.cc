@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/mpi_errors.h>
 #include <nacre/forms/load_terms.h>
 #include <nacre/problem/loads.h>
 
@@ -168,6 +169,15 @@ namespace Nacre
   {
     for (const auto &force : loads_.point_forces())
       places_.push_back(discretization_.locate(force.position, force.source));
+    run_on_all_ranks(discretization_.communicator(), [&]() {
+      for (const auto &place : places_)
+        AssertThrow(!place.is_mine || place.part.enrichment() == nullptr,
+                    ExcMessage(
+                      "Loads: a point force lies within two cells of "
+                      "the tip of a cut, or within 'Cuts/Tip radius' of it, "
+                      "where it has functions; refine the mesh, or choose "
+                      "'Cuts/Tips = closed'."));
+    });
   }
 
   void
@@ -187,12 +197,6 @@ namespace Nacre
           continue;
         std::vector<types::global_dof_index> dofs;
         discretization_.get_dof_indices(place.part, dofs);
-        AssertThrow(place.part.enrichment() == nullptr,
-                    ExcMessage(
-                      "Loads: a point force lies within two cells of "
-                      "the tip of a cut, or within 'Cuts/Tip radius' of it, "
-                      "where it has functions; refine the mesh, or choose "
-                      "'Cuts/Tips = closed'."));
         dealii::Vector<double> local(dofs.size());
         for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
           for (unsigned int c = 0; c < spacedim; ++c)
