@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/edge_nodes.h>
+#include <nacre/discretization/plane_geometry.h>
 
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -67,7 +68,7 @@ namespace Nacre
       return std::asin(std::min(1., sine));
     }
 
-    /** Where the edge of a part that a cut divides is on the part's side. */
+    /** Where the edge of a part beside a cut is on the part's side. */
     class EdgeContinuation
     {
     public:
@@ -76,7 +77,9 @@ namespace Nacre
                        const unsigned int    face)
         : fe_(discretization.scalar_fe())
       {
-        if (!part.is_cut())
+        for (const CutLip &lip : discretization.cell_parts().lips(part))
+          lips_.push_back({{lip.begin, lip.begin + lip.along}});
+        if (lips_.empty())
           return;
         const auto cell = part.cell->reference_cell();
         start_ = cell.vertex<dim>(cell.face_to_cell_vertices(face, 0, 1));
@@ -110,22 +113,30 @@ namespace Nacre
       void
       append_samples(const unsigned int a, std::vector<double> &numbers) const
       {
-        const double s =
-          (fe_.unit_support_point(a) - start_) * along_ / along_.norm_square();
-        // A node on the cut itself is one of either side.
+        if (intervals_.empty())
+          {
+            numbers.push_back(0);
+            return;
+          }
+        const Point<dim> &node = fe_.unit_support_point(a);
+        const double s = (node - start_) * along_ / along_.norm_square();
         const double tolerance = 1e-9;
-        const bool   is_beyond =
-          !intervals_.empty() &&
-          std::none_of(intervals_.begin(),
-                       intervals_.end(),
-                       [&](const auto &interval) {
-                         return (s > interval[0] + tolerance ||
-                                 interval[0] < tolerance) &&
-                                (s < interval[1] - tolerance ||
-                                 interval[1] > 1. - tolerance);
-                       });
-        numbers.push_back(is_beyond ? points_.size() : 0);
-        if (!is_beyond)
+        // A node on the cut itself is one of either side.
+        const bool is_on_lip =
+          std::any_of(lips_.begin(), lips_.end(), [&](const auto &ends) {
+            return PlaneGeometry::nearest_on_segment(ends[0], ends[1], node)
+                     .distance(node) < tolerance;
+          });
+        const bool is_inside =
+          !is_on_lip &&
+          std::any_of(intervals_.begin(),
+                      intervals_.end(),
+                      [&](const auto &interval) {
+                        return s > interval[0] - tolerance &&
+                               s < interval[1] + tolerance;
+                      });
+        numbers.push_back(is_inside ? 0 : points_.size());
+        if (is_inside)
           return;
         const auto basis =
           Polynomials::generate_complete_Lagrange_basis(points_);
@@ -146,6 +157,8 @@ namespace Nacre
       Tensor<1, dim>                      along_;
       std::vector<Point<spacedim>>        nodes_;
       std::vector<std::array<double, 2>>  intervals_;
+      /** Both ends of each. */
+      std::vector<std::array<Point<dim>, 2>> lips_;
       std::vector<Point<1>>               points_;
     };
 
