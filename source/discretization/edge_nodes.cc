@@ -119,8 +119,8 @@ namespace Nacre
             return;
           }
         const Point<dim> &node = fe_.unit_support_point(a);
-        const double s = (node - start_) * along_ / along_.norm_square();
-        const double tolerance = 1e-9;
+        const double      s = (node - start_) * along_ / along_.norm_square();
+        const double      tolerance = 1e-9;
         // A node on the cut itself is one of either side.
         const bool is_on_lip =
           std::any_of(lips_.begin(), lips_.end(), [&](const auto &ends) {
@@ -128,13 +128,12 @@ namespace Nacre
                      .distance(node) < tolerance;
           });
         const bool is_inside =
-          !is_on_lip &&
-          std::any_of(intervals_.begin(),
-                      intervals_.end(),
-                      [&](const auto &interval) {
-                        return s > interval[0] - tolerance &&
-                               s < interval[1] + tolerance;
-                      });
+          !is_on_lip && std::any_of(intervals_.begin(),
+                                    intervals_.end(),
+                                    [&](const auto &interval) {
+                                      return s > interval[0] - tolerance &&
+                                             s < interval[1] + tolerance;
+                                    });
         numbers.push_back(is_inside ? 0 : points_.size());
         if (is_inside)
           return;
@@ -159,7 +158,7 @@ namespace Nacre
       std::vector<std::array<double, 2>>  intervals_;
       /** Both ends of each. */
       std::vector<std::array<Point<dim>, 2>> lips_;
-      std::vector<Point<1>>               points_;
+      std::vector<Point<1>>                  points_;
     };
 
     std::vector<EdgeNode>

@@ -123,7 +123,8 @@ namespace Nacre
   PartTransfer::points_of(const CellPart &part) const
   {
     const ChildMap map = child_maps(
-      part.cell->reference_cell())[sources_[part.cell->active_cell_index()].map];
+      part.cell
+        ->reference_cell())[sources_[part.cell->active_cell_index()].map];
     const PartFields *const fields =
       fields_around(part, map.to_parent(part.inner_point()));
     PointValues result;
