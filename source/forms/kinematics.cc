@@ -143,38 +143,11 @@ namespace Nacre
     }
   } // namespace
 
-  namespace
-  {
-    void
-    check_initial_strain(const SectionLaw        &section,
-                         const Element           &element,
-                         const KinematicsOptions &options)
-    {
-      if (!section.has_initial_strain())
-        return;
-      AssertThrow(options.model != KinematicsModel::corotational,
-                  ExcMessage("Section/Initial strain: 'Discretization/"
-                             "Kinematics = corotational' has no terms for it; "
-                             "choose finite."));
-      AssertThrow(options.edge_form == EdgeForm::rotation_jump,
-                  ExcMessage("Section/Initial strain: 'Discretization/Edge "
-                             "form = averaged normal' has no terms for it; "
-                             "choose rotation jump."));
-      AssertThrow(!section.is_coupled() ||
-                    !blends_integration(element, options.membrane_strain),
-                  ExcMessage("Section/Initial strain: with 'Discretization/"
-                             "Membrane strain = reduced' it has no terms for "
-                             "sections that couple membrane forces and "
-                             "bending; choose tied."));
-    }
-  } // namespace
-
   std::unique_ptr<Kinematics>
   make_kinematics(const Discretization    &discretization,
                   const SectionLaw        &section,
                   const KinematicsOptions &options)
   {
-    check_initial_strain(section, discretization.element(), options);
     if (options.edge_form == EdgeForm::averaged_normal)
       {
         AssertThrow(

@@ -243,6 +243,12 @@ namespace Nacre
     const Energies &
     energies() const
     {
+    bool
+    has_initial_strain() const
+    {
+      return model_.section.has_initial_strain();
+    }
+
       return energies_;
     }
 
