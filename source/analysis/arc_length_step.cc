@@ -63,6 +63,7 @@ namespace Nacre
       NewtonSolver(parameters).solve(u_, [&](const Vector &u, Vector &du) {
         return linearise(u, du);
       });
+    system_.count_negative_eigenvalues(result);
     if (!result.converged || distance_ == 0.)
       return result;
     Vector change(u_);

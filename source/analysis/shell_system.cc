@@ -128,6 +128,22 @@ namespace Nacre
     return v * Mw;
   }
 
+  void
+  ShellSystem::count_negative_eigenvalues(NewtonSolver::Result &result)
+  {
+    if (!result.converged)
+      return;
+    if (const auto n = solver_.count_negative_eigenvalues())
+      {
+        result.last.n_negative_pivots = *n;
+        return;
+      }
+    result.converged    = false;
+    result.last.failure = singular_tangent();
+    result.kind         = result.last.failure.kind;
+    result.reason       = result.last.failure.text;
+  }
+
   double
   ShellSystem::improve_mode(const MassTerms   &mass,
                             const unsigned int n_steps,

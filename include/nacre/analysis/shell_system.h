@@ -192,6 +192,15 @@ namespace Nacre
 
     /** A vector with ghosts and the entries of @p owned. */
     Vector
+    /**
+     * If @p result has converged, count for certain the negative eigenvalues of
+     * the last matrix that solve_linearised() has solved with,
+     * LinearSolver::count_negative_eigenvalues(); without success where the
+     * matrix is singular. Collective.
+     */
+    void
+    count_negative_eigenvalues(NewtonSolver::Result &result);
+
     with_ghosts(const Vector &owned) const;
 
     /** A zero vector of owned entries. */
