@@ -63,6 +63,7 @@ namespace Nacre
       NewtonSolver(parameters).solve(u_, [&](const Vector &u, Vector &du) {
         return linearise(u, du);
       });
+    system_.count_negative_eigenvalues(result);
     if (!result.converged || distance_ == 0.)
       return result;
     Vector change(u_);
@@ -102,9 +103,10 @@ namespace Nacre
         change -= start_;
         return distance_ - normal_ * change;
       }
-    const auto [found, gradient] = quantity_->evaluate(u);
-    normal_                      = gradient;
-    const double left            = quantity_->change(found, value_);
+    const auto found  = quantity_->evaluate(u, time_);
+    normal_           = found.gradient;
+    quantity_rate_    = found.rate;
+    const double left = quantity_->change(found.value, value_);
     if (is_first_)
       distance_ = left;
     return left;
@@ -121,7 +123,7 @@ namespace Nacre
     if (quantity_ == nullptr && normal_.size() == 0)
       set_tangent_plane(velocity);
     const double left     = distance_left(u);
-    const double slope    = normal_ * velocity;
+    const double slope    = normal_ * velocity + quantity_rate_;
     const double dt       = (left - normal_ * du) / slope;
     const double smallest = 1e-12 * normal_.l2_norm() * velocity.l2_norm();
     if (!(std::abs(slope) > smallest) || !std::isfinite(dt))

@@ -94,6 +94,20 @@ namespace Nacre
     return Utilities::MPI::sum(work, communicator);
   }
 
+  double
+  EnergyLedger::initial_strain_work(const Step   &step,
+                                    const double  strain_change,
+                                    const Vector &end) const
+  {
+    const ShellActions &actions = system_.actions();
+    const Assembly     &shell   = system_.assembly();
+    return strain_change - shell.energies(end, actions).total() +
+           shell
+             .energies(step.step_start.u,
+                       {actions.loads, step.step_start.rotations})
+             .total();
+  }
+
   EnergyBalance
   EnergyLedger::after_step(const EnergyBalance &before, const Step &step) const
   {
@@ -112,13 +126,12 @@ namespace Nacre
         after.prescribed_work += reaction_work(step, ghosted_mean);
       }
     system_.set_load_time(end_time);
+    const ShellActions at_end = system_.actions();
     system_.set_force_time(middle);
     if (step.conserves)
       after.prescribed_work += reaction_work(step, ghosted_mean);
     after.prescribed_work +=
-      shell.rotation_conditions().work(step.step_start,
-                                       end,
-                                       system_.actions().rotations);
+      shell.rotation_conditions().work(step.step_start, end, system_.actions());
 
     Vector loads = system_.owned_vector();
     shell.loads(ghosted_mean, loads, system_.actions().loads, &step.step_start);
@@ -130,7 +143,10 @@ namespace Nacre
       after.dissipation += 2. * damping_ / step.dt * kinetic_energy(change);
 
     after.kinetic = kinetic_energy(step.end.v);
-    after.strain  = shell.energies(end, system_.actions()).total();
+    after.strain  = shell.energies(end, at_end).total();
+    if (system_.has_initial_strain())
+      after.external_work +=
+        initial_strain_work(step, after.strain - before.strain, end);
     after.largest = std::max({before.largest,
                               after.kinetic + after.strain,
                               std::abs(after.external_work),

@@ -87,7 +87,7 @@ namespace Nacre
     if (control_)
       state.controlled +=
         control_->change(state.controlled,
-                         control_->evaluate(state.motion.u).first);
+                         control_->evaluate(state.motion.u, state.time).value);
   }
 
   void
@@ -102,7 +102,8 @@ namespace Nacre
     const double found  = state.controlled;
     while (state.n_controls < values.size() &&
            std::abs(values[state.n_controls] - found) <=
-             1e-9 * parameters_.control_step + 1e-14 * std::abs(found))
+             control_->accuracy * parameters_.control_step +
+               1e-14 * std::abs(found))
       ++state.n_controls;
   }
 
@@ -205,7 +206,10 @@ namespace Nacre
         auto newton           = parameters_.newton;
         newton.max_increment  = 100. * system_.size();
         newton.max_iterations = max_iterations.value_or(newton.max_iterations);
-        ArcLengthStep step(system_, state.motion.u, state.time, rate_step());
+        ArcLengthStep step(system_,
+                           state.motion.u,
+                           state.time,
+                           parameters_.rate_step());
         step.go_to_plane(state.motion.v, 0.);
         attempt          = {step.solve(newton), state.motion};
         attempt.motion.u = step.displacement();
@@ -274,7 +278,10 @@ namespace Nacre
   {
     auto newton          = parameters_.newton;
     newton.max_increment = 100. * system_.size();
-    ArcLengthStep step(system_, state.motion.u, state.time, rate_step());
+    ArcLengthStep step(system_,
+                       state.motion.u,
+                       state.time,
+                       parameters_.rate_step());
     set_plane(state, step);
     PathAttempt attempt{step.solve(newton), state.motion};
     if (!attempt.result.converged)
@@ -483,7 +490,8 @@ namespace Nacre
     Vector     du   = system_.owned_vector();
     const auto step = system_.solve_linearised(state.motion.u, du);
     return step.failure.kind != FailureKind::none ||
-           system_.rate(state.motion.u, state.time, rate_step()).velocity *
+           system_.rate(state.motion.u, state.time, parameters_.rate_step())
+                 .velocity *
                direction >
              0.;
   }

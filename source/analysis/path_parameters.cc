@@ -356,7 +356,8 @@ namespace Nacre
       "Control",
       control_text_,
       "With displacement control: the name of the quantity that is "
-      "prescribed in steps, a displacement or a rotation at a point.");
+      "prescribed in steps, a displacement or a rotation at a point, or a "
+      "reaction.");
     add_parameter(
       "Control values",
       control_values_text_,

@@ -70,6 +70,7 @@ namespace Nacre
         return system.solve_linearised(u, du);
       },
       work);
+    system.count_negative_eigenvalues(attempt.result);
     return attempt;
   }
 } // namespace Nacre

@@ -86,6 +86,8 @@ namespace Nacre
           change <= 100. * newton_.increment_tolerance * largest_change ||
           std::abs(step.work) <= step.round_off_work;
         result.converged = part.factor == 1. && shift_ == 0. && is_small;
+        system_.count_negative_eigenvalues(result);
+        result.converged = result.converged && step.n_negative_pivots == 0;
         if (result.converged)
           break;
         if (shift_ == 0.)

@@ -137,6 +137,22 @@ namespace Nacre
     return v * Mw;
   }
 
+  void
+  ShellSystem::count_negative_eigenvalues(NewtonSolver::Result &result)
+  {
+    if (!result.converged)
+      return;
+    if (const auto n = solver_.count_negative_eigenvalues())
+      {
+        result.last.n_negative_pivots = *n;
+        return;
+      }
+    result.converged    = false;
+    result.last.failure = singular_tangent();
+    result.kind         = result.last.failure.kind;
+    result.reason       = result.last.failure.text;
+  }
+
   double
   ShellSystem::improve_mode(const MassTerms   &mass,
                             const unsigned int n_steps,
@@ -180,19 +196,29 @@ namespace Nacre
   ShellSystem::Rate
   ShellSystem::rate(const Vector &u, const double time, const double dt)
   {
-    const double before = time - dt, after = time + dt;
-    // How prescribed displacements move the shell, K(u) g, and how loads do.
-    const Vector change = prescribed_change(before, after);
-    Vector       force = owned_vector(), end_force = owned_vector(), end(u);
-    end.add(-0.5, change);
-    assembly_.residual(with_ghosts(end),
-                       assembly_.actions(model_.at(before)),
-                       force);
-    end.add(1., change);
-    assembly_.residual(with_ghosts(end),
-                       assembly_.actions(model_.at(after)),
-                       end_force);
+    const Vector change = prescribed_change(time - dt, time + dt);
+    const auto residual = [&](const double at, const double share, Vector &r) {
+      Vector moved(u);
+      moved.add(share, change);
+      assembly_.residual(with_ghosts(moved),
+                         assembly_.actions(model_.at(at)),
+                         r);
+    };
+    // How loads move the shell, and how prescribed displacements do, K(u) g:
+    // these by small ones, since they strain the cells at the supports alone.
+    Vector force = owned_vector(), end_force = owned_vector();
+    residual(time - dt, 0., force);
+    residual(time + dt, 0., end_force);
     force -= end_force;
+    const double largest = change.linfty_norm();
+    if (largest > 0.)
+      {
+        const double share       = std::min(0.5, 1e-6 * size_ / largest);
+        Vector       start_force = owned_vector();
+        residual(time, -share, start_force);
+        residual(time, share, end_force);
+        force.add(0.5 / share, start_force, -0.5 / share, end_force);
+      }
     force /= 2. * dt;
     const AffineConstraints<double> homogeneous = homogeneous_constraints();
     condense(homogeneous, force);
@@ -201,6 +227,35 @@ namespace Nacre
     result.work = force * result.velocity;
     homogeneous.distribute(result.velocity);
     result.velocity.add(0.5 / dt, change);
+    return result;
+  }
+
+  ShellSystem::VirtualWork
+  ShellSystem::virtual_work(const Vector &u,
+                            const Vector &v,
+                            const double  time,
+                            const double  dt)
+  {
+    const CpuSum seconds(assembly_seconds_);
+    const Vector ghosted = with_ghosts(u);
+    const auto   work_at = [&](const double at) {
+      Vector force = owned_vector();
+      assembly_.residual(ghosted, assembly_.actions(model_.at(at)), force);
+      return force * v;
+    };
+    AffineConstraints<double> none(conditions_->relevant_dofs());
+    none.close();
+    if (whole_matrix_.m() == 0)
+      assembly_.reinit_matrix(none, whole_matrix_);
+    Vector unused = owned_vector();
+    assembly_.assemble(ghosted,
+                       assembly_.actions(model_.at(time)),
+                       none,
+                       whole_matrix_,
+                       unused);
+    VirtualWork result{work_at(time), owned_vector()};
+    whole_matrix_.vmult(result.gradient, v);
+    result.rate = (work_at(time + dt) - work_at(time - dt)) / (2. * dt);
     return result;
   }
 

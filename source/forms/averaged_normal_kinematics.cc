@@ -12,7 +12,8 @@ namespace Nacre
   void
   AveragedNormalPoint::reinit(const ShellEdgeValues &edge,
                               const unsigned int     q,
-                              const SectionLaw      &section)
+                              const SectionLaw      &section,
+                              const Instant         &instant)
   {
     AssertDimension(edge.n_sides(), 2);
     const auto &t_minus = edge.frame(0, q).t0;
@@ -33,11 +34,12 @@ namespace Nacre
                                  t_minus,
                                  t_plus);
 
-    stiffness_ = 0.;
+    stiffness_      = 0.;
+    initial_moment_ = Voigt<>();
     normal_jump_.reinit(3, edge.n_dofs());
     mean_moment_.reinit(3, edge.n_dofs());
     for (unsigned int side = 0; side < 2; ++side)
-      add_side(edge, side, q, section, edge_frame);
+      add_side(edge, side, q, section, instant, edge_frame);
   }
 
   void
@@ -45,6 +47,7 @@ namespace Nacre
                                 const unsigned int     side,
                                 const unsigned int     q,
                                 const SectionLaw      &section,
+                                const Instant         &instant,
                                 const SurfaceFrame<>  &edge_frame)
   {
     const auto &frame  = edge.frame(side, q);
@@ -59,6 +62,11 @@ namespace Nacre
     const auto H_m = section.stiffness(edge_frame, edge.point(q, side)).bending;
     stiffness_ += 0.5 * H_m;
     const auto stiffness = 0.5 * sigma * H_m;
+    if (section.has_initial_strain())
+      initial_moment_ +=
+        0.5 * sigma *
+        (invert(transpose(p)) *
+         section.initial_forces(frame, edge.point(q, side), instant).moment);
 
     for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
       {
@@ -121,7 +129,7 @@ namespace Nacre
   {
     const auto &jump   = point_.normal_jump();
     const auto &moment = point_.mean_moment();
-    Voigt<>     u_jump, u_moment;
+    Voigt<>     u_jump, u_moment = -1. * point_.initial_moment();
     for (unsigned int v = 0; v < 3; ++v)
       for (unsigned int i = 0; i < u.size(); ++i)
         {
@@ -151,7 +159,7 @@ namespace Nacre
       }
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        point_.reinit(edge, q, section_);
+        point_.reinit(edge, q, section_, instant_);
         const double dx = edge.JxW(q);
         if (terms.wants_tangent)
           fill_rows(q, penalty, dx);

@@ -50,6 +50,29 @@ namespace Nacre
       }
   }
 
+  std::vector<InitialForces>
+  held_forces(const ShellCellValues       &values,
+              const SectionLaw            &section,
+              const std::array<double, 2> &shares,
+              const Instant               &instant)
+  {
+    std::vector<InitialForces> result;
+    if (section.has_initial_strain())
+      for (unsigned int q = 0; q < values.n_points(); ++q)
+        {
+          InitialForces held =
+            section.initial_forces(values.frame(q), values.point(q), instant);
+          const double membrane_area = shares[0] * values.JxW(q);
+          const double bending_area  = shares[1] * values.JxW(q);
+          held.membrane_force *= membrane_area;
+          held.membrane_energy *= membrane_area;
+          held.moment *= bending_area;
+          held.bending_energy *= bending_area;
+          result.push_back(held);
+        }
+    return result;
+  }
+
   double
   full_integration_share(const ShellCellValues &values,
                          const SectionLaw      &section)

@@ -124,6 +124,7 @@ namespace Nacre
                            1.;
     const bool   both  = share < 1.;
     full_points_.stiffness.reinit(values, section_, share);
+    full_points_.held = held_forces(values, section_, {{share, 1.}}, instant_);
     force_.assign(u_.size(), Vector3());
 
     const unsigned int n_full    = full_points_.n_membrane_rows;
@@ -143,6 +144,10 @@ namespace Nacre
         reduced_points_->stiffness.reinit(reduced_points_->values,
                                           section_,
                                           1. - share);
+        reduced_points_->held = held_forces(reduced_points_->values,
+                                            section_,
+                                            {{1. - share, 0.}},
+                                            instant_);
         add_membrane_terms(*reduced_points_, n_full + n_bending, terms);
       }
 
@@ -170,6 +175,8 @@ namespace Nacre
                                     ends_membrane_[0],
                                     ends_membrane_[1]);
       }
+    if (!points.held.empty())
+      membrane_.subtract(points.values.tying(), points.held);
     // Reduced points are of the membrane strain alone.
     if (&points != &full_points_)
       return;
@@ -187,6 +194,24 @@ namespace Nacre
       bending_.couple(points.values.tying(),
                       points.stiffness.coupling,
                       membrane_);
+    bending_.subtract(points.held);
+  }
+
+  void
+  CorotationalKinematics::add_initial_energies(const CellPoints &points,
+                                               Energies         &energies) const
+  {
+    for (unsigned int q = 0; q < points.held.size(); ++q)
+      {
+        const InitialForces &held = points.held[q];
+        energies.membrane +=
+          held.membrane_energy -
+          0.5 * (held.membrane_force *
+                 membrane_.tied_strain(points.values.tying(), q));
+        energies.bending += held.bending_energy;
+        if (&points == &full_points_)
+          energies.bending -= 0.5 * (held.moment * bending_.strain(q));
+      }
   }
 
   void
@@ -201,6 +226,7 @@ namespace Nacre
       {
         membrane_.add_force(points.values, force_);
         terms.energies.membrane += membrane_.energy();
+        add_initial_energies(points, terms.energies);
       }
     if (terms.wants_tangent)
       {

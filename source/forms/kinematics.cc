@@ -141,36 +141,6 @@ namespace Nacre
                     "rotations it has no terms for sections that couple "
                     "membrane forces and bending; use tied."));
     }
-  } // namespace
-
-  namespace
-  {
-    void
-    check_initial_strain(const SectionLaw        &section,
-                         const Element           &element,
-                         const KinematicsOptions &options)
-    {
-      if (!section.has_initial_strain())
-        return;
-      AssertThrow(section.is_linear(),
-                  ExcMessage("Section/Initial strain: a section whose law "
-                             "isn't linear has no terms for it; leave it "
-                             "empty, or choose another 'Section/Type'."));
-      AssertThrow(options.model != KinematicsModel::corotational,
-                  ExcMessage("Section/Initial strain: 'Discretization/"
-                             "Kinematics = corotational' has no terms for it; "
-                             "choose finite."));
-      AssertThrow(options.edge_form == EdgeForm::rotation_jump,
-                  ExcMessage("Section/Initial strain: 'Discretization/Edge "
-                             "form = averaged normal' has no terms for it; "
-                             "choose rotation jump."));
-      AssertThrow(!section.is_coupled() ||
-                    !blends_integration(element, options.membrane_strain),
-                  ExcMessage("Section/Initial strain: with 'Discretization/"
-                             "Membrane strain = reduced' it has no terms for "
-                             "sections that couple membrane forces and "
-                             "bending; choose tied."));
-    }
 
     /** Only the finite rotations ask a section at the strains of now. */
     void
@@ -178,6 +148,10 @@ namespace Nacre
     {
       if (section.is_linear())
         return;
+      AssertThrow(!section.has_initial_strain(),
+                  ExcMessage("Section/Initial strain: a section whose law "
+                             "isn't linear has no terms for it; leave it "
+                             "empty, or choose another 'Section/Type'."));
       AssertThrow(options.model == KinematicsModel::finite,
                   ExcMessage("Discretization/Kinematics: '" +
                              name_of(options.model) +
@@ -195,7 +169,6 @@ namespace Nacre
                   const KinematicsOptions &options,
                   SectionStates           *states)
   {
-    check_initial_strain(section, discretization.element(), options);
     check_nonlinear(section, options);
     if (options.edge_form == EdgeForm::averaged_normal)
       {

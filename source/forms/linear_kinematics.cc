@@ -132,26 +132,20 @@ namespace Nacre
                                       const Vector<double>        &u,
                                       LocalTerms                  &terms) const
   {
-    if (!section_.has_initial_strain())
-      return;
-    const auto &eps = values.membrane_rows();
-    const auto &rho = values.bending_rows();
-    for (unsigned int q = 0; q < values.n_points(); ++q)
+    const auto  held = held_forces(values, section_, shares, instant_);
+    const auto &eps  = values.membrane_rows();
+    const auto &rho  = values.bending_rows();
+    for (unsigned int q = 0; q < held.size(); ++q)
       {
-        const auto held =
-          section_.initial_forces(values.frame(q), values.point(q), instant_);
-        const double membrane_area = shares[0] * values.JxW(q);
-        const double bending_area  = shares[1] * values.JxW(q);
-        terms.energies.membrane += membrane_area * held.membrane_energy;
-        terms.energies.bending += bending_area * held.bending_energy;
+        terms.energies.membrane += held[q].membrane_energy;
+        terms.energies.bending += held[q].bending_energy;
         for (unsigned int i = 0; i < eps.n(); ++i)
           {
             double n_eps = 0., m_rho = 0.;
             for (unsigned int v = 0; v < 3; ++v)
               {
-                n_eps +=
-                  membrane_area * held.membrane_force[v] * eps(3 * q + v, i);
-                m_rho += bending_area * held.moment[v] * rho(3 * q + v, i);
+                n_eps += held[q].membrane_force[v] * eps(3 * q + v, i);
+                m_rho += held[q].moment[v] * rho(3 * q + v, i);
               }
             terms.residual[i] -= n_eps + m_rho;
             if (u.size() > 0)

@@ -87,11 +87,12 @@ namespace Nacre
   }
 
   double
-  RotationConditions::work(const StepStart           &start,
-                           const Vector              &u_end,
-                           const PrescribedRotations &end) const
+  RotationConditions::work(const StepStart    &start,
+                           const Vector       &u_end,
+                           const ShellActions &end) const
   {
     const auto kinematics = kinematics_.clone();
+    kinematics->set_instant(end.loads);
     LocalTerms terms;
     double     sum      = 0.;
     terms.wants_tangent = false;
@@ -100,7 +101,7 @@ namespace Nacre
       kinematics->add_rotation_step_terms(edge.values,
                                           penalty_.boundary(edge.part()),
                                           start.rotations.at(edge.place()),
-                                          end.at(edge.place()),
+                                          end.rotations.at(edge.place()),
                                           edge.extract(start.u),
                                           edge.extract(u_end),
                                           terms);
@@ -110,12 +111,13 @@ namespace Nacre
   }
 
   Tensor<1, spacedim>
-  RotationConditions::reaction(const types::boundary_id   id,
-                               const Vector              &u,
-                               const PrescribedRotations &rotations,
+  RotationConditions::reaction(const types::boundary_id id,
+                               const Vector            &u,
+                               const ShellActions      &actions,
                                const bool has_deformed_levers) const
   {
-    const auto          kinematics = kinematics_.clone();
+    const auto kinematics = kinematics_.clone();
+    kinematics->set_instant(actions.loads);
     LocalTerms          terms;
     Tensor<1, spacedim> sum;
     terms.wants_tangent = false;
@@ -127,7 +129,7 @@ namespace Nacre
       terms.reinit(local.size());
       kinematics->add_rotation_terms(edge.values,
                                      penalty_.boundary(edge.part()),
-                                     rotations.at(edge.place()),
+                                     actions.rotations.at(edge.place()),
                                      local,
                                      terms);
       // Virtual work on the rigid rotation e_k x x.

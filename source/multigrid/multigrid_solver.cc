@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace Nacre
 {
@@ -370,12 +371,12 @@ namespace Nacre
 
 
   unsigned int
-  MultigridSolver::iterate(Vector &x, const Vector &b)
+  MultigridSolver::iterate(Vector       &x,
+                           Vector       &r,
+                           const Vector &b,
+                           const double  tolerance)
   {
     Level &level = *levels_[0];
-    Vector r(b);
-    x = 0.;
-    start(x, r);
     Vector p(level.matrix.partitioner()), Ap(p), zero(p);
     double rz_old = 1.;
     for (unsigned int k = 0;; ++k)
@@ -404,7 +405,7 @@ namespace Nacre
         // The squares of the energy norms of the error before this step, but
         // for the preconditioner, and of the solution.
         const double energy = x * b - x * r;
-        if (rz <= Utilities::fixed_power<2>(parameters_.tolerance) * energy)
+        if (rz <= Utilities::fixed_power<2>(tolerance) * energy)
           return k + 1;
       }
   }
@@ -434,7 +435,10 @@ namespace Nacre
         solution.update_ghost_values();
         level.matrix.residual(r, solution, right_hand_side);
         solution.zero_out_ghost_values();
-        accuracy.n_iterations = iterate(correction, r);
+        const Vector missing(r);
+        start(correction, r);
+        accuracy.n_iterations =
+          iterate(correction, r, missing, parameters_.tolerance);
         solution += correction;
         solution.update_ghost_values();
         accuracy.backward_error =
@@ -451,6 +455,28 @@ namespace Nacre
   {
     if (!has_solved_)
       return {};
+    return 0;
+  }
+
+
+  std::optional<unsigned int>
+  MultigridSolver::count_negative_eigenvalues()
+  {
+    Level &level = *levels_[0];
+    if (level.direct != nullptr)
+      return level.direct->n_negative_pivots();
+    Vector       x(level.matrix.partitioner()), b(x);
+    std::mt19937 random(
+      Utilities::MPI::this_mpi_process(level.discretization->communicator()));
+    std::uniform_real_distribution<double> entry(-1., 1.);
+    // Rows of constrained dofs are diagonal.
+    for (unsigned int i = 0; i < level.matrix.n_owned(); ++i)
+      if (level.matrix.row_length(i) > 1)
+        b.begin()[i] = entry(random);
+    Vector r(b);
+    // Of a random vector an eigenvector has a share of about 1 / n, and soft
+    // ones more.
+    iterate(x, r, b, 1e-6);
     return 0;
   }
 

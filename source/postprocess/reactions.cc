@@ -203,7 +203,7 @@ namespace Nacre
         moment -=
           shell.assembly.rotation_conditions().reaction(id,
                                                         shell.displacement,
-                                                        shell.actions.rotations,
+                                                        shell.actions,
                                                         has_deformed_levers(
                                                           shell));
       return moment;

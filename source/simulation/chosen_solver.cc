@@ -98,22 +98,24 @@ namespace Nacre
                              Log           &log)
     : direct_(communicator)
     , multigrid_(make_multigrid ? make_multigrid() : nullptr)
+    , has_factors_(multigrid_ == nullptr)
     , log_(log)
   {}
 
   bool
   ChosenSolver::try_prepare(const LinearSystem &system)
   {
-    system_ = std::make_unique<const LinearSystem>(system);
-    if (multigrid_ == nullptr)
-      return direct_.try_prepare(system);
+    system_      = std::make_unique<const LinearSystem>(system);
+    has_factors_ = multigrid_ == nullptr || is_indefinite_;
+    if (has_factors_)
+      return factorize();
     try
       {
         return multigrid_->try_prepare(system);
       }
     catch (const ExcIterationFailed &failure)
       {
-        return fall_back(reason(failure));
+        return fall_back(failure);
       }
   }
 
@@ -121,14 +123,14 @@ namespace Nacre
   ChosenSolver::solve(TrilinosWrappers::MPI::Vector       &x,
                       const TrilinosWrappers::MPI::Vector &b)
   {
-    if (multigrid_ != nullptr)
+    if (!has_factors_)
       try
         {
           return multigrid_->solve(x, b);
         }
       catch (const ExcIterationFailed &failure)
         {
-          if (!fall_back(reason(failure)))
+          if (!fall_back(failure))
             {
               SolveAccuracy accuracy;
               accuracy.is_regular = false;
@@ -139,19 +141,47 @@ namespace Nacre
   }
 
   bool
-  ChosenSolver::fall_back(const std::string &reason)
+  ChosenSolver::factorize()
   {
-    log_.warning("multigrid failed: " + reason +
-                 "; the direct solver takes over.");
-    multigrid_.reset();
-    return direct_.try_prepare(*system_);
+    const bool is_regular = direct_.try_prepare(*system_);
+    is_indefinite_        = !is_regular || *direct_.n_negative_pivots() > 0;
+    return is_regular;
+  }
+
+  bool
+  ChosenSolver::fall_back(const ExcIterationFailed &failure)
+  {
+    has_factors_          = true;
+    const bool is_regular = factorize();
+    if (!is_indefinite_ || !has_warned_)
+      log_.warning("multigrid failed: " + reason(failure) +
+                   "; the direct solver takes over" +
+                   (is_indefinite_ ? " where the matrix is indefinite." : "."));
+    has_warned_ = true;
+    if (!is_indefinite_)
+      multigrid_.reset();
+    return is_regular;
   }
 
   std::optional<unsigned int>
   ChosenSolver::n_negative_pivots() const
   {
-    if (multigrid_ != nullptr)
-      return 0;
+    return has_factors_ ? direct_.n_negative_pivots() : 0;
+  }
+
+  std::optional<unsigned int>
+  ChosenSolver::count_negative_eigenvalues()
+  {
+    if (!has_factors_)
+      try
+        {
+          return multigrid_->count_negative_eigenvalues();
+        }
+      catch (const ExcIterationFailed &failure)
+        {
+          if (!fall_back(failure))
+            return {};
+        }
     return direct_.n_negative_pivots();
   }
 

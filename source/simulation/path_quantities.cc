@@ -41,12 +41,14 @@ namespace Nacre
                                                   "quantity",
                                                   path.control,
                                                   names)));
-        AssertThrow(control->goal.load || control->angle,
+        AssertThrow(control->goal.load || control->goal.reaction ||
+                      control->angle,
                     ExcMessage("Analysis/Control: the quantity '" +
                                path.control +
                                "' is neither a displacement nor a rotation at "
-                               "a point; choose one like 'displacement z at "
-                               "(x, y, z)', or 'Type = arc length'."));
+                               "a point, nor a reaction; choose one like "
+                               "'displacement z at (x, y, z)' or 'reaction z "
+                               "of EDGE', or 'Type = arc length'."));
         AssertThrow(!control->angle || kinematics != KinematicsModel::linear,
                     ExcMessage("Analysis/Control: rotations are controlled "
                                "with Discretization/Kinematics = finite or "
@@ -64,30 +66,47 @@ namespace Nacre
   }
 
   ControlledQuantity
-  controlled_quantity(const PathParameters       &path,
-                      const QuantitiesOfInterest &quantities,
-                      const ShellSystem          &system,
-                      const Discretization       &discretization)
+  controlled_quantity(const PathParameters         &path,
+                      const QuantitiesOfInterest   &quantities,
+                      ShellSystem                  &system,
+                      const Discretization         &discretization,
+                      const DisplacementConditions &conditions)
   {
     using Vector         = ControlledQuantity::Vector;
+    using Value          = ControlledQuantity::Value;
     const auto *quantity = find_quantity(quantities, path.control);
     Assert(quantity != nullptr, ExcInternalError());
     ControlledQuantity control;
     if (quantity->angle)
       {
-        control.period = 2. * numbers::PI;
+        control.period   = 2. * numbers::PI;
+        control.evaluate = [&system,
+                            &discretization,
+                            angle = quantity->angle](const Vector &u,
+                                                     const double) -> Value {
+          const Angle found = angle(discretization, system.with_ghosts(u));
+          return {found.value, found.gradient};
+        };
+        control.evaluate(system.owned_vector(), 0.);
+      }
+    else if (quantity->goal.reaction)
+      {
+        // Forces know round-off of the membrane's.
+        control.accuracy = 1e-6;
         control.evaluate =
-          [&system, &discretization, angle = quantity->angle](const Vector &u) {
-            const Angle found = angle(discretization, system.with_ghosts(u));
-            return std::make_pair(found.value, found.gradient);
-          };
-        control.evaluate(system.owned_vector());
+          [&system,
+           v  = quantity->goal.reaction(discretization, conditions),
+           dt = path.rate_step()](const Vector &u, const double time) -> Value {
+          const auto work = system.virtual_work(u, v, time, dt);
+          return {work.value, work.gradient, work.rate};
+        };
       }
     else
-      control.evaluate =
-        [gradient = quantity->goal.load(discretization)](const Vector &u) {
-          return std::make_pair(gradient * u, gradient);
-        };
+      control.evaluate = [gradient = quantity->goal.load(
+                            discretization)](const Vector &u,
+                                             const double) -> Value {
+        return {gradient * u, gradient};
+      };
     return control;
   }
 

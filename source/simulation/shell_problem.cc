@@ -363,12 +363,9 @@ namespace Nacre
                            "' is linear; choose 'Analysis/Type = static' or "
                            "'Tension free = no'."));
     AssertThrow(!problem.model.section.has_initial_strain() ||
-                  (problem.assembly == AssemblyMethod::fast &&
-                   !problem.path.is_dynamic()),
-                ExcMessage("Section/Initial strain: neither 'Discretization/"
-                           "Assembly = reference' nor 'Analysis/Type = "
-                           "dynamic' knows it; choose 'fast', and a static "
-                           "analysis."));
+                  problem.assembly == AssemblyMethod::fast,
+                ExcMessage("Section/Initial strain: 'Discretization/Assembly = "
+                           "reference' doesn't know it; choose 'fast'."));
     if (!problem.path.is_linear())
       return;
     AssertThrow(linear_kinematics,

@@ -27,7 +27,8 @@ namespace Nacre
       path.curve()->control(controlled_quantity(problem.path,
                                                 quantities,
                                                 system,
-                                                shell.discretization()));
+                                                shell.discretization(),
+                                                shell.conditions()));
   }
 
   namespace

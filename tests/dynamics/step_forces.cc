@@ -193,7 +193,7 @@ test_prescribed_rotation(const KinematicsModel model)
                   start,
                   after);
   const double    rotation_work =
-    assembly->rotation_conditions().work(start, u_end, after.rotations);
+    assembly->rotation_conditions().work(start, u_end, after);
   const auto name = name_of(model) + ": prescribed rotation";
   check_below(name + ": work",
               std::abs(step.work + rotation_work - (U_end - U_start)) /

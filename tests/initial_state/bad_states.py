@@ -36,7 +36,6 @@ def case(name, expect, settings, change=None, folder=None):
 F = "Foundation/"
 S = "Section/Initial strain/"
 I = "Mid-surface/Imperfection/"
-PATH = {"Analysis/Type": "static"}
 HEATED = {S + "Temperature": "1", S + "Thermal expansion": "1e-5"}
 
 case("foundation_negative", ["Normal stiffness: -1 at", "not be negative"],
@@ -50,10 +49,6 @@ case("foundation_of_no_region", ["Foundation/Regions", "'soil'"],
      {F + "Regions": "soil: normal = 1"})
 case("strain_of_two", ["Initial strain/Strain: '1, 2' has 2 components"],
      {S + "Strain": "1, 2"})
-case("strain_corotational", ["Initial strain", "choose finite"],
-     {**HEATED, **PATH, "Discretization/Kinematics": "corotational"})
-case("strain_in_motion", ["Initial strain", "dynamic"],
-     {**HEATED, "Analysis/Type": "dynamic", "Section/Density": "1"})
 case("strain_reference", ["Initial strain", "Assembly = reference", "fast"],
      {**HEATED, "Discretization/Assembly": "reference"})
 case("strain_adaptive", ["Cycles", "estimate knows no initial strains"],

@@ -20,6 +20,7 @@ ARCH = str(BENCHMARKS / "arc_length_arch.prm")
 HINGED = str(BENCHMARKS / "path_arch_hinged.prm")
 CIRCLE = str(BENCHMARKS / "finite_circle.prm")
 STRIP = str(BENCHMARKS / "arc_length_elastica.prm")
+CANTILEVER = str(BENCHMARKS / "cantilever_elastica.prm")
 # Semi-analytical: the largest and the smallest load, of 60.
 LARGEST, SMALLEST = 52.580408 / 60., 46.188430 / 60.
 NO_FIELDS = {"Study__Write_VTU": "false"}
@@ -222,6 +223,60 @@ def branch_meets_the_path(folder):
     check(point["kind"] == "bifurcation" and
           abs(float(point["load_factor"]) - float(meeting["load_factor"]))
           < 2e-6, f"{point} and {meeting}")
+
+
+@test(1, 2)
+def control_of_a_reaction(folder):
+    """The end of a strip is moved until its support bears a force: as far as
+    the force moves it, that of a load there included."""
+    strip = dict(COARSE, Study__Refinements="0",
+                 Discretization__Kinematics="finite",
+                 Quantities__Quantities="w = displacement z at (L, b/2, 0); "
+                 "F = reaction z of u=1")
+    cases = [("", "P/4", "finite")]
+    if folder.ranks == 1:
+        cases = [("", "P", "finite"), ("u=1: 0, 0, P/4", "P/2", "finite"),
+                 ("", "P", "corotational")]
+    for load, end, kinematics in cases:
+        strip["Discretization__Kinematics"] = kinematics
+        folder.succeed(CANTILEVER, **strip, Loads__Edge_forces=load,
+                       Boundary_conditions__Edges="u=0: clamped; u=1: z = L",
+                       Analysis__Type="displacement control",
+                       Analysis__Control="F", Analysis__Control_step="P/4",
+                       Analysis__Control_values=end)
+        rows = folder.rows("case_path.csv")
+        slowest = max(int(row["iterations"]) for row in rows)
+        check(kinematics == "corotational" or slowest <= 12, f"slow: {rows}")
+        w, force, time = (float(rows[-1][c]) for c in ("w", "F", "time"))
+        check_near("F", force, {"P": 4., "P/2": 2., "P/4": 1.}[end], 1e-6)
+        total = force + (time if load else 0.)
+        folder.succeed(CANTILEVER, **dict(strip, Study__Name="pushed"),
+                       Loads__Edge_forces=f"u=1: 0, 0, {total}")
+        check_near("w", w, folder.values("pushed_path.csv", "w")[-1], 1e-6)
+
+
+@test(1, 2)
+def points_with_multigrid(folder):
+    """Multigrid, too, sees that a point was passed, though nothing excites the
+    mode and the coarser mesh buckles at a higher load, and goes on where the
+    path is stable again. The points are those of the direct solver."""
+    strip = {**SHORT, "Study__Degrees": "2", "Study__Refinements": "1",
+             "Mid-surface__Subdivisions": "2, 1", "Analysis__End_time": "1.03",
+             "Analysis__Switch_branch": "none", "Analysis__Time_step": "0.51",
+             "Analysis__Maximum_time_step": "0.51"}
+    arch = {**COARSE, "Study__Degrees": "2", "Study__Name": "strip"}
+    cases = [(STRIP, strip, 1), (ARCH, arch, 2)]
+    for file, settings, n_points in cases[:1 if folder.ranks > 1 else 2]:
+        settings["Analysis__Maximum_points"] = str(n_points)
+        folder.succeed(file, **settings, Linear_solver__Solver="direct")
+        points = folder.rows("strip_points.csv")
+        check(len(points) == n_points, f"points {points}")
+        text = folder.succeed(file, **settings,
+                              Linear_solver__Solver="multigrid",
+                              Linear_solver__Coarsest_unknowns="50")
+        check_same("points", folder.rows("strip_points.csv"), points, 1e-6)
+        check(text.count("takes over where the matrix is indefinite") == 1,
+              f"no change of solvers: {text}")
 
 
 @test(1, 2)

@@ -50,6 +50,13 @@ public:
     return {};
   }
 
+  std::optional<unsigned int>
+  count_negative_eigenvalues() override
+  {
+    call();
+    return 0;
+  }
+
 private:
   void
   call()
@@ -104,7 +111,16 @@ test_reserve(const unsigned int good_calls, const std::string &name)
               << " iterations, x_0 = " << x(0) << ", negative pivots "
               << *solver.n_negative_pivots() << std::endl;
     solver.prepare({matrix, constraints});
-    std::cout << "  then " << solver.name() << std::endl;
+    std::cout << "  then " << solver.name();
+    for (const double last : {2., -1.})
+      {
+        matrix.set(2, 2, last);
+        matrix.compress(VectorOperation::insert);
+        solver.prepare({matrix, constraints});
+        std::cout << ", with " << last << ": " << solver.name();
+      }
+    std::cout << ", " << *solver.count_negative_eigenvalues()
+              << " negative eigenvalue" << std::endl;
   });
   std::cout << "  " << (errors.empty() ? "no warning\n" : errors);
 }
@@ -116,6 +132,7 @@ main(int argc, char **argv)
   test_reserve(100, "iterative");
   test_reserve(0, "fails at first");
   test_reserve(1, "fails later");
+  test_reserve(5, "fails to count");
 
   const auto choice = [](const SolverTask &task) {
     return prefers_multigrid(task) ? "multigrid" : "direct";

@@ -19,9 +19,9 @@ namespace Nacre
    * there, this is the arc-length method with the normal plane (E. Riks, An
    * incremental approach to the solution of snapping and buckling problems,
    * Int. J. Solids Structures 15 (1979) 529-551). Or it ends where a quantity
-   * Q(u) has a value q,
+   * Q(u, t) has a value q,
    *
-   *   K du = -r - r,t dt,   Q,u(u) . du = q - Q(u):
+   *   K du = -r - r,t dt,   Q,u . du + Q,t dt = q - Q(u, t):
    *
    * for a displacement, which is linear, this is displacement control (J.-L.
    * Batoz, G. Dhatt, Incremental displacement algorithms for nonlinear
@@ -136,6 +136,8 @@ namespace Nacre
     /** With the value that it shall have. */
     const ControlledQuantity *quantity_ = nullptr;
     double                    value_    = 0.;
+    /** Q,t */
+    double quantity_rate_ = 0.;
     /** The plane, or Q,u; the normal is empty before it is known. */
     Vector normal_;
     double distance_ = 0.;

@@ -8,19 +8,30 @@
 
 #include <cmath>
 #include <functional>
-#include <utility>
 
 namespace Nacre
 {
-  /** The quantity Q(u) that displacement control prescribes. */
+  /** The quantity Q(u, t) that displacement control prescribes. */
   struct ControlledQuantity
   {
     using Vector = ShellSystem::Vector;
 
-    /** Q and its gradient at owned entries u; collective. */
-    std::function<std::pair<double, Vector>(const Vector &u)> evaluate;
+    struct Value
+    {
+      /** Q */
+      double value = 0.;
+      /** Q,u */
+      Vector gradient;
+      /** Q,t, the displacement held. */
+      double rate = 0.;
+    };
+
+    /** At owned entries u and the time t; collective. */
+    std::function<Value(const Vector &u, const double time)> evaluate;
     /** Q is known up to multiples of it, as an angle is; 0: it is unique. */
     double period = 0.;
+    /** Share of a step to which Q reaches its values. */
+    double accuracy = 1e-9;
 
     /** From @p start to @p end, the shortest way if there is a period. */
     double

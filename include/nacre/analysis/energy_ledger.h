@@ -15,7 +15,9 @@ namespace Nacre
    * With Delta = end - start of a step and means at the middle:
    *
    * external work        f(t_m, u_m) . Delta u, exact for constant dead loads
-   *                      and following pressures
+   *                      and following pressures; and what the strain energy
+   *                      changes by as initial strains do: from those of the
+   *                      start to those of t_m at the start, and on at the end
    * prescribed motion    reactions at the means of u and v times the change of
    *                      the prescribed displacements, and the moments of the
    *                      supports times that of the prescribed rotations
@@ -79,6 +81,17 @@ namespace Nacre
      */
     double
     reaction_work(const Step &step, const Vector &mean) const;
+
+    /**
+     * Work of initial strains that change, with the loads and rotations set
+     * that after_step() leaves.
+     * @param strain_change of the energy, from the start to the end
+     * @param end ghosted displacement
+     */
+    double
+    initial_strain_work(const Step   &step,
+                        const double  strain_change,
+                        const Vector &end) const;
 
     ShellSystem     &system_;
     const MassTerms &mass_;

@@ -208,13 +208,6 @@ namespace Nacre
     Vector
     scaled_mode(const Vector &mode) const;
 
-    /** Of derivatives with respect to the time. */
-    double
-    rate_step() const
-    {
-      return 0.01 * parameters_.time_step;
-    }
-
     const PathParameters &parameters_;
     ShellSystem          &system_;
     const StepControl     step_control_;

@@ -239,6 +239,13 @@ namespace Nacre
       return controls_displacement() ? control_step : time_step;
     }
 
+    /** Of derivatives with respect to the time. */
+    double
+    rate_step() const
+    {
+      return 0.01 * time_step;
+    }
+
     /** @p dt (time) as a size of steps, where these are of another quantity. */
     double
     step_of(const double dt) const

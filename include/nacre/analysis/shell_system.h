@@ -157,6 +157,27 @@ namespace Nacre
     Rate
     rate(const Vector &u, const double time, const double dt);
 
+    /** The work of r on a virtual displacement v. */
+    struct VirtualWork
+    {
+      /** r(u) . v (force times length) */
+      double value = 0.;
+      /** K(u) v (force), which is its gradient as K is symmetric. */
+      Vector gradient;
+      /** r,t . v (force times length/time), the displacement held. */
+      double rate = 0.;
+    };
+
+    /**
+     * That of all internal forces and loads at @p u and @p time, at supports as
+     * well, on @p v. Derivatives with respect to the time are as rate()'s.
+     */
+    VirtualWork
+    virtual_work(const Vector &u,
+                 const Vector &v,
+                 const double  time,
+                 const double  dt);
+
     /** -r(u) . du with the constraints eliminated. */
     double
     work(const Vector  &u,
@@ -177,6 +198,15 @@ namespace Nacre
     improve_mode(const MassTerms   &mass,
                  const unsigned int n_steps,
                  Vector            &mode);
+
+    /**
+     * If @p result has converged, count for certain the negative eigenvalues of
+     * the last matrix that solve_linearised() has solved with,
+     * LinearSolver::count_negative_eigenvalues(); without success where the
+     * matrix is singular. Collective.
+     */
+    void
+    count_negative_eigenvalues(NewtonSolver::Result &result);
 
     /**
      * The acceleration (length/time^2) that the forces at @p u give in
@@ -219,6 +249,12 @@ namespace Nacre
     /** The section's thickness (length) at some point. */
     double
     thickness() const;
+
+    bool
+    has_initial_strain() const
+    {
+      return model_.section.has_initial_strain();
+    }
 
     /** Largest dimension of the shell (length). */
     double
@@ -314,12 +350,14 @@ namespace Nacre
 
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
-    LinearSolver                           &solver_;
-    bool                                    keeps_tangent_ = false;
-    bool                                    has_tangent_   = false;
-    Energies                                energies_;
-    mutable double                          assembly_seconds_ = 0.;
-    Vector                                  last_increment_;
+    /** With no constraints eliminated, if virtual_work() was called. */
+    TrilinosWrappers::SparseMatrix whole_matrix_;
+    LinearSolver                  &solver_;
+    bool                           keeps_tangent_ = false;
+    bool                           has_tangent_   = false;
+    Energies                       energies_;
+    mutable double                 assembly_seconds_ = 0.;
+    Vector                         last_increment_;
   };
 } // namespace Nacre
 

@@ -20,7 +20,8 @@ namespace Nacre
     void
     reinit(const ShellEdgeValues &edge,
            const unsigned int     q,
-           const SectionLaw      &section);
+           const SectionLaw      &section,
+           const Instant         &instant);
 
     /** N^ [[Delta t~]], (37) and (38), Voigt as strains (1/length). */
     const FullMatrix<double> &
@@ -34,6 +35,16 @@ namespace Nacre
     mean_moment() const
     {
       return mean_moment_;
+    }
+
+    /**
+     * Those that initial strains hold, which {m~} counts too much: their
+     * contravariant components in the edge's basis, p^-T m0.
+     */
+    const Voigt<> &
+    initial_moment() const
+    {
+      return initial_moment_;
     }
 
     /** {H_m} in the edge's basis, as (41). */
@@ -50,10 +61,12 @@ namespace Nacre
              const unsigned int     side,
              const unsigned int     q,
              const SectionLaw      &section,
+             const Instant         &instant,
              const SurfaceFrame<>  &edge_frame);
 
     FullMatrix<double> normal_jump_;
     FullMatrix<double> mean_moment_;
+    Voigt<>            initial_moment_;
     VoigtMatrix<>      stiffness_;
   };
 

@@ -7,6 +7,7 @@
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/section_law.h>
 
+#include <array>
 #include <vector>
 
 namespace Nacre
@@ -30,6 +31,17 @@ namespace Nacre
            const SectionLaw      &section,
            const double           membrane_factor);
   };
+
+  /**
+   * What the section's initial strains hold at the points of a cell at
+   * @p instant, times area and weight; none if there are no initial strains.
+   * @param shares of these points in the energies of membrane and bending
+   */
+  std::vector<InitialForces>
+  held_forces(const ShellCellValues       &values,
+              const SectionLaw            &section,
+              const std::array<double, 2> &shares,
+              const Instant               &instant);
 
   /**
    * stress = D strain, for the three Voigt rows of strains and resultants of

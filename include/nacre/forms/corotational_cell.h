@@ -4,6 +4,7 @@
 #ifndef nacre_forms_corotational_cell_h
 #define nacre_forms_corotational_cell_h
 
+#include <nacre/forms/cell_stiffness.h>
 #include <nacre/forms/tied_samples.h>
 #include <nacre/mechanics/corotational_strain.h>
 #include <nacre/mechanics/step_differences.h>
@@ -119,6 +120,17 @@ namespace Nacre
     {
       this->set_mean_strains(start, end);
       set_forces(values.tying(), stiffness);
+    }
+
+    /** Less the forces that initial strains hold at the points. */
+    void
+    subtract(const MembraneTying &tying, const std::vector<InitialForces> &held)
+    {
+      for (unsigned int q = 0; q < held.size(); ++q)
+        this->add_point_force(tying,
+                              q,
+                              Voigt<Number>(-1. * held[q].membrane_force));
+      this->set_resultants(tying);
     }
 
     /** 1/2 e . M . e (force times length). */
@@ -286,6 +298,14 @@ namespace Nacre
             transpose(coupling[q]) * membrane.tied_strain(tying, q);
         }
       membrane.set_resultants(tying);
+    }
+
+    /** Less the moments that initial strains hold at the points. */
+    void
+    subtract(const std::vector<InitialForces> &held)
+    {
+      for (unsigned int q = 0; q < held.size(); ++q)
+        moments_[q] -= held[q].moment;
     }
 
     /**

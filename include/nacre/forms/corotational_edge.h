@@ -72,6 +72,13 @@ namespace Nacre
       std::array<Number, 2> spin;
     };
 
+    /** Of initial strains. */
+    void
+    set_instant(const Instant &instant)
+    {
+      instant_ = instant;
+    }
+
     /**
      * Everything at the point @p q, for the displacements @p u of the nodes of
      * each side.
@@ -119,6 +126,7 @@ namespace Nacre
               side.mean_factor * (side.linear.coupling *
                                   membrane[s].tied_strain(edge.tying(s), q));
         }
+      mean_ -= mean_initial_moment(edge, q, section, instant_);
       fluxes_ = edge_fluxes(edge, q, stiffness_, penalty);
     }
 
@@ -336,6 +344,7 @@ namespace Nacre
     Vector              d_, b_, t_;
     Number              stretch_ = 0.;
     Vector              tangent_spin_;
+    Instant             instant_;
   };
 
   /**

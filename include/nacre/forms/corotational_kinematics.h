@@ -41,6 +41,15 @@ namespace Nacre
     clone() const override;
 
     void
+    set_instant(const Instant &instant) override
+    {
+      instant_ = instant;
+      for (CorotationalEdgePoint<double> *const point :
+           {&edge_point_, &ends_edge_point_[0], &ends_edge_point_[1]})
+        point->set_instant(instant);
+    }
+
+    void
     add_cell_terms(const CellPart       &part,
                    const Vector<double> &u,
                    LocalTerms           &terms) override;
@@ -125,6 +134,8 @@ namespace Nacre
 
       ShellCellValues values;
       CellStiffness   stiffness;
+      /** By initial strains; may be empty. */
+      std::vector<InitialForces> held;
       /** M of CorotationalMembrane. */
       FullMatrix<double> membrane_stiffness;
       /**
@@ -142,6 +153,13 @@ namespace Nacre
     /** Strains and stresses of membrane and bending, unless in_step_. */
     void
     evaluate_strains(CellPoints &points);
+
+    /**
+     * Energies of initial strains beside half the work of the stresses on the
+     * strains, 1/2 e . M . (e - 2 e0) + 1/2 e0 . M . e0.
+     */
+    void
+    add_initial_energies(const CellPoints &points, Energies &energies) const;
 
     /** Residual and energy of the membrane strain, and rows of the tangent. */
     void
@@ -289,6 +307,7 @@ namespace Nacre
     const SectionLaw     &section_;
     const MembraneStrain  membrane_strain_;
     const TangentType     tangent_type_;
+    Instant               instant_;
     CellPoints            full_points_;
     /** p x p points, for reduced integration only. */
     std::optional<CellPoints> reduced_points_;

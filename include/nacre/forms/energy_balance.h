@@ -25,7 +25,7 @@ namespace Nacre
     //@{
     /** Kinetic and strain energy at the start. */
     double initial = 0.;
-    /** Work of loads, gravity and pressure. */
+    /** Work of loads, gravity, pressure and changes of initial strains. */
     double external_work = 0.;
     /** Work of the reactions at prescribed displacements and rotations. */
     double prescribed_work = 0.;

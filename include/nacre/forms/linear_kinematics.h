@@ -77,6 +77,7 @@ namespace Nacre
     const Discretization &discretization_;
     const SectionLaw     &section_;
     const MembraneStrain  membrane_strain_;
+    Instant               instant_;
 
   private:
     /**
@@ -129,7 +130,6 @@ namespace Nacre
     RotationJump       jump_;
     FullMatrix<double> test_rows_;
     FullMatrix<double> trial_rows_;
-    Instant            instant_;
   };
 } // namespace Nacre
 

@@ -46,12 +46,13 @@ namespace Nacre
 
     /**
      * Work (force times length) of the supports that prescribe rotations, from
-     * @p start to the ghosted @p u_end with the rotations @p end; collective.
+     * @p start to the ghosted @p u_end with the rotations of @p end, and the
+     * initial strains at its loads' instant in the whole step; collective.
      */
     double
-    work(const StepStart           &start,
-         const Vector              &u_end,
-         const PrescribedRotations &end) const;
+    work(const StepStart    &start,
+         const Vector       &u_end,
+         const ShellActions &end) const;
 
     /**
      * The virtual work of the rotation conditions of the edge @p id on a
@@ -61,10 +62,10 @@ namespace Nacre
      *   surface, else of the undeformed one, as in linear kinematics
      */
     Tensor<1, spacedim>
-    reaction(const types::boundary_id   id,
-             const Vector              &u,
-             const PrescribedRotations &rotations,
-             const bool                 has_deformed_levers) const;
+    reaction(const types::boundary_id id,
+             const Vector            &u,
+             const ShellActions      &actions,
+             const bool               has_deformed_levers) const;
 
     /** Where, and by how much, a deformed edge departs from its rotation. */
     struct Gap

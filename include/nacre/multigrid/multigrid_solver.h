@@ -112,6 +112,18 @@ namespace Nacre
     std::optional<unsigned int>
     n_negative_pivots() const override;
 
+    /**
+     * 0, after conjugate gradients for a right-hand side that no symmetry
+     * spares. Their residual has the polynomial p(l) = prod (1 - l/theta) of
+     * the eigenvalues l of B K, which are as many negative ones as those of K.
+     * As long as no curvature, thus no Ritz value theta, is negative, p > 1 at
+     * a negative l: the part of its eigenvector grows, and the iteration can't
+     * converge (Saad: Iterative methods for sparse linear systems, 2003,
+     * sections 6.7.3 and 9.2). Throws ExcIterationFailed if there are any.
+     */
+    std::optional<unsigned int>
+    count_negative_eigenvalues() override;
+
     /** x = B b, one V-cycle from zero; for tests. Collective. */
     void
     apply_cycle(TrilinosWrappers::MPI::Vector       &x,
@@ -161,11 +173,12 @@ namespace Nacre
     start(Vector &x, Vector &r);
 
     /**
-     * Conjugate gradients for K x = b on the finest level; returns the number
-     * of iterations.
+     * Conjugate gradients for K x = b on the finest level, from @p x with the
+     * residual @p r; returns the number of iterations.
+     * @param tolerance as Parameters::tolerance
      */
     unsigned int
-    iterate(Vector &x, const Vector &b);
+    iterate(Vector &x, Vector &r, const Vector &b, const double tolerance);
 
     const ShellModel                   &model_;
     const DisplacementConditions       *conditions_;

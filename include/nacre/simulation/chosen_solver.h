@@ -68,8 +68,8 @@ namespace Nacre
   /**
    * The linear solver of a case: direct, or multigrid with the direct one in
    * reserve. If multigrid fails, a warning says why, and the direct solver
-   * takes over for good: its number of negative pivots tells an indefinite
-   * matrix.
+   * takes over: for indefinite matrices until it meets a definite one again,
+   * whatever else was the cause for good.
    */
   class ChosenSolver : public LinearSolver
   {
@@ -95,24 +95,36 @@ namespace Nacre
     std::optional<unsigned int>
     n_negative_pivots() const override;
 
+    std::optional<unsigned int>
+    count_negative_eigenvalues() override;
+
     /** The one that solved last, direct or multigrid. */
     SolverType
     type() const
     {
-      return multigrid_ != nullptr ? SolverType::multigrid : SolverType::direct;
+      return has_factors_ ? SolverType::direct : SolverType::multigrid;
     }
 
     std::string
     name() const;
 
   private:
-    /** @return whether the direct solver finds the matrix regular. */
+    /** Take the direct solver; returns whether it finds the matrix regular. */
     bool
-    fall_back(const std::string &reason);
+    fall_back(const ExcIterationFailed &failure);
+
+    /** Have the direct solver factorise the matrix of prepare(), likewise. */
+    bool
+    factorize();
 
     DirectSolver                  direct_;
     std::unique_ptr<LinearSolver> multigrid_;
-    Log                          &log_;
+    /** Whether the direct solver takes the matrix of prepare(). */
+    bool has_factors_;
+    /** Whether the last matrix that it has taken was. */
+    bool is_indefinite_ = false;
+    bool has_warned_    = false;
+    Log &log_;
     /** The system of prepare(), for the solver in reserve. */
     std::unique_ptr<const LinearSystem> system_;
   };

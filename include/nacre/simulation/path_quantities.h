@@ -27,10 +27,11 @@ namespace Nacre
    * Throws if it can't be taken there. Collective.
    */
   ControlledQuantity
-  controlled_quantity(const PathParameters       &path,
-                      const QuantitiesOfInterest &quantities,
-                      const ShellSystem          &system,
-                      const Discretization       &discretization);
+  controlled_quantity(const PathParameters         &path,
+                      const QuantitiesOfInterest   &quantities,
+                      ShellSystem                  &system,
+                      const Discretization         &discretization,
+                      const DisplacementConditions &conditions);
 
   /**
    * The first bound of `Stop where` that holds at @p state of the @p shell, in

@@ -112,6 +112,17 @@ namespace Nacre
      */
     virtual std::optional<unsigned int>
     n_negative_pivots() const = 0;
+
+    /**
+     * Number of negative eigenvalues of K, for certain: that takes one more
+     * solution where there are no factors. Empty if a solver that took over
+     * finds K singular. Throws as solve(). Collective.
+     */
+    virtual std::optional<unsigned int>
+    count_negative_eigenvalues()
+    {
+      return n_negative_pivots();
+    }
   };
 } // namespace Nacre
 

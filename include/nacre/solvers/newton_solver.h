@@ -52,7 +52,7 @@ namespace Nacre
        * 0 if du holds more than the answer to r (force times length).
        */
       double round_off_work = 0.;
-      /** Negative eigenvalues of K. */
+      /** Negative eigenvalues of K, as far as the solver has met them. */
       unsigned int n_negative_pivots = 0;
       /** Why there is no increment; the rest is meaningless then. */
       StepFailure failure;
