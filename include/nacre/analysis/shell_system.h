@@ -90,6 +90,16 @@ namespace Nacre
       has_tangent_   = false;
     }
 
+    /**
+     * Whether from now on solve_linearised() fails where the matrix isn't
+     * positive definite, which is quicker than solving with it.
+     */
+    void
+    require_definite(const bool is_required)
+    {
+      requires_definite_ = is_required;
+    }
+
     /** Loads and prescribed rotations at the times set. */
     const ShellActions &
     actions() const
@@ -308,8 +318,9 @@ namespace Nacre
     std::unique_ptr<DisplacementConditions> conditions_;
     TrilinosWrappers::SparseMatrix          matrix_;
     LinearSolver                           &solver_;
-    bool                                    keeps_tangent_ = false;
-    bool                                    has_tangent_   = false;
+    bool                                    keeps_tangent_     = false;
+    bool                                    has_tangent_       = false;
+    bool                                    requires_definite_ = false;
     Energies                                energies_;
     mutable double                          assembly_seconds_ = 0.;
     Vector                                  last_increment_;
