@@ -67,7 +67,14 @@ namespace Nacre
     attempt.result = NewtonSolver(newton).solve(
       attempt.motion.u,
       [&](const Vector &u, Vector &du) {
-        return system.solve_linearised(u, du);
+        auto step = system.solve_linearised(u, du);
+        // The energy isn't convex here: a minimum is for the relaxation to
+        // find, and Newton's method would wander, or end in a saddle.
+        if (parameters.type == AnalysisType::relaxation &&
+            step.n_negative_pivots > 0)
+          step.failure = {FailureKind::no_stable_state,
+                          "the tangent has negative eigenvalues"};
+        return step;
       },
       work);
     system.count_negative_eigenvalues(attempt.result);

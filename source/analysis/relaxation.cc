@@ -55,17 +55,14 @@ namespace Nacre
     while (result.iterations < max_iterations)
       {
         const Inertia inertia{mass_, rest, shift_};
+        system_.require_definite(has_begun && shift_ > 0.);
         result.last = system_.solve_linearised(u, u, du, &inertia, 1.);
+        system_.require_definite(false);
         ++result.iterations;
         if (step.failure.kind == FailureKind::not_finite)
           break;
-        if (step.failure.kind == FailureKind::singular_tangent)
-          {
-            shift_      = std::max(4. * shift_, least_shift_);
-            is_careful_ = true;
-            continue;
-          }
-        if (!has_begun)
+        const bool is_regular = (step.failure.kind == FailureKind::none);
+        if (is_regular && !has_begun)
           {
             // It brings the prescribed displacements, whatever that takes.
             u += du;
@@ -73,9 +70,9 @@ namespace Nacre
             has_begun      = true;
             continue;
           }
-        if (step.n_negative_pivots > 0)
+        if (!is_regular || step.n_negative_pivots > 0)
           {
-            raise_shift();
+            raise_shift(du, step);
             continue;
           }
         const Part   part   = take_increment(u, du, step);
@@ -140,10 +137,13 @@ namespace Nacre
   }
 
   void
-  Relaxation::raise_shift()
+  Relaxation::raise_shift(const Vector &du, const NewtonSolver::Step &step)
   {
-    const double nearest = system_.improve_mode(mass_, 4, mode_) - shift_;
-    shift_      = std::max({4. * shift_, -margin * nearest, least_shift_});
+    double first = least_shift_;
+    if (shift_ == 0. && std::abs(step.work) > step.round_off_work)
+      first =
+        std::max(first, std::abs(step.work) / system_.product(mass_, du, du));
+    shift_      = std::max(4. * shift_, first);
     is_careful_ = true;
   }
 
@@ -153,7 +153,7 @@ namespace Nacre
     if (part.factor == 0.)
       shift_ = std::max(4. * shift_, least_shift_);
     else if (part.factor < 1.)
-      shift_ = std::max((part.factor < 0.3 ? 2. : 1.) * shift_, least_shift_);
+      shift_ = std::max((part.factor < 0.3 ? 4. : 1.) * shift_, least_shift_);
     else if (is_careful_)
       shift_ *= 0.7;
     else

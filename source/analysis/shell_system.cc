@@ -19,10 +19,12 @@ namespace Nacre
   namespace
   {
     StepFailure
-    singular_tangent()
+    singular_tangent(const bool requires_definite)
     {
       return {FailureKind::singular_tangent,
-              "the tangent is singular to working precision"};
+              requires_definite ?
+                "the tangent is not positive definite" :
+                "the tangent is singular to working precision"};
     }
   } // namespace
 
@@ -417,7 +419,7 @@ namespace Nacre
     du = 0.;
     if (!solver_.solve(du, right_hand_side).is_regular)
       {
-        step.failure = singular_tangent();
+        step.failure = singular_tangent(requires_definite_);
         return step;
       }
 
@@ -467,8 +469,9 @@ namespace Nacre
     if (!std::isfinite(energies_.total() + right_hand_side.l2_norm() +
                        matrix_.frobenius_norm()))
       return not_finite(u);
-    if (!solver_.try_prepare({matrix_, constraints, &u, actions_.loads}))
-      return singular_tangent();
+    if (!solver_.try_prepare(
+          {matrix_, constraints, &u, actions_.loads, requires_definite_}))
+      return singular_tangent(requires_definite_);
     has_tangent_ = true;
     return {};
   }

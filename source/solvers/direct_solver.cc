@@ -102,9 +102,9 @@ namespace Nacre
       , first_method(quickest_method())
     {}
 
-    /** @return whether the matrix is regular. */
+    /** @return whether the matrix is regular, or else definite. */
     bool
-    factorize(const TrilinosMatrix &matrix);
+    factorize(const TrilinosMatrix &matrix, const bool definite_only);
     /** Discard analysis and factors if the nonzero entries have changed. */
     void
     take_pattern(const TrilinosMatrix &matrix);
@@ -175,13 +175,17 @@ namespace Nacre
 
 
   bool
-  DirectSolver::Implementation::factorize(const TrilinosMatrix &new_matrix)
+  DirectSolver::Implementation::factorize(const TrilinosMatrix &new_matrix,
+                                          const bool            definite_only)
   {
     AssertDimension(new_matrix.m(), new_matrix.n());
     is_factorised = false;
     matrix        = &new_matrix;
     take_pattern(new_matrix);
-    for (int m = first_method; m != none && !is_factorised; ++m)
+    // The quickest method takes all matrices that are definite.
+    const int first = definite_only ? quickest_method() : first_method;
+    const int end   = definite_only ? first + 1 : none;
+    for (int m = first; m != end && !is_factorised; ++m)
       {
         analyse(new_matrix, static_cast<Method>(m));
         is_factorised = factors->factorize(new_matrix, pattern) &&
@@ -238,16 +242,17 @@ namespace Nacre
 
 
   bool
-  DirectSolver::try_factorize(const TrilinosWrappers::SparseMatrix &matrix)
+  DirectSolver::try_factorize(const TrilinosWrappers::SparseMatrix &matrix,
+                              const bool definite_only)
   {
-    return implementation_->factorize(matrix);
+    return implementation_->factorize(matrix, definite_only);
   }
 
 
   bool
   DirectSolver::try_prepare(const LinearSystem &system)
   {
-    return try_factorize(system.matrix);
+    return try_factorize(system.matrix, system.definite_only);
   }
 
 

@@ -314,6 +314,27 @@ test_nearly_singular()
   });
 }
 
+/** A matrix that has to be definite and isn't is given up; the next is not. */
+void
+test_definite_only()
+{
+  Problem      problem(12, 2);
+  DirectSolver solver(comm);
+  problem.assemble(100., true);
+  const bool is_regular = solver.try_factorize(problem.matrix, true);
+  report("indefinite matrix, definite only",
+         Utilities::MPI::n_mpi_processes(comm) == 1 ?
+           !is_regular :
+           solver.n_negative_pivots() > 0u);
+  solver.factorize(problem.matrix);
+  report("indefinite matrix", solver.n_negative_pivots() > 0u);
+  problem.assemble(-1., true);
+  double backward_error;
+  report("definite matrix, definite only",
+         solver.try_factorize(problem.matrix, true) &&
+           problem.error(solver, backward_error) < 1e-10);
+}
+
 /** One analysis a pattern; many right-hand sides with one factorisation. */
 void
 test_reuse()
@@ -440,6 +461,7 @@ main(int argc, char *argv[])
   test_zero_diagonal();
   test_diagonal();
   test_nearly_singular();
+  test_definite_only();
   test_reuse();
   test_empty_ranks();
 }

@@ -64,9 +64,12 @@ namespace Nacre
     Part
     take_increment(Vector &u, const Vector &du, const NewtonSolver::Step &step);
 
-    /** After a matrix with negative eigenvalues. */
+    /**
+     * After a matrix that isn't positive definite. The first shift takes as
+     * much work along the increment @p du of such a matrix as the tangent did.
+     */
     void
-    raise_shift();
+    raise_shift(const Vector &du, const NewtonSolver::Step &step);
 
     /** After an increment of which @p part was taken. */
     void

@@ -97,6 +97,16 @@ namespace Nacre
     void
     accept_step(const Vector &u, const double time);
 
+    /**
+     * Whether from now on solve_linearised() fails where the matrix isn't
+     * positive definite, which is quicker than solving with it.
+     */
+    void
+    require_definite(const bool is_required)
+    {
+      requires_definite_ = is_required;
+    }
+
     /** Loads and prescribed rotations at the times set. */
     const ShellActions &
     actions() const
@@ -353,8 +363,9 @@ namespace Nacre
     /** With no constraints eliminated, if virtual_work() was called. */
     TrilinosWrappers::SparseMatrix whole_matrix_;
     LinearSolver                  &solver_;
-    bool                           keeps_tangent_ = false;
-    bool                           has_tangent_   = false;
+    bool                           keeps_tangent_     = false;
+    bool                           has_tangent_       = false;
+    bool                           requires_definite_ = false;
     Energies                       energies_;
     mutable double                 assembly_seconds_ = 0.;
     Vector                         last_increment_;

@@ -43,7 +43,8 @@ namespace Nacre
 
     /** The same, but returns false for a matrix that is singular. */
     bool
-    try_factorize(const TrilinosWrappers::SparseMatrix &matrix);
+    try_factorize(const TrilinosWrappers::SparseMatrix &matrix,
+                  const bool                            definite_only = false);
 
     /** try_factorize() its matrix. */
     bool

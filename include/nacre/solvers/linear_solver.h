@@ -62,6 +62,11 @@ namespace Nacre
     const TrilinosWrappers::MPI::Vector *u = nullptr;
     /** The loads and prescribed rotations of which K is the tangent. */
     Instant instant = Instant();
+    /**
+     * Only a positive definite K is wanted: try_prepare() may return false for
+     * another one, which takes less than its factors.
+     */
+    bool definite_only = false;
   };
 
   /**
@@ -93,7 +98,7 @@ namespace Nacre
 
     /**
      * The same, but returns false for a matrix that is singular to working
-     * precision, as a tangent may be.
+     * precision, as a tangent may be, or isn't definite if it has to be.
      */
     virtual bool
     try_prepare(const LinearSystem &system) = 0;
