@@ -150,7 +150,7 @@ namespace Nacre
         return;
       }
     result.converged    = false;
-    result.last.failure = singular_tangent();
+    result.last.failure = singular_tangent(false);
     result.kind         = result.last.failure.kind;
     result.reason       = result.last.failure.text;
   }
