@@ -6,7 +6,7 @@
 
 #include "finite_shell.h"
 #include "power_section.h"
-#include <nacre/simulation/displacement_transfer.h>
+#include <nacre/discretization/part_transfer.h>
 
 constexpr double E = 100., h = 0.2;
 
@@ -221,21 +221,18 @@ test_refinement(const TextModelOf<MemorySection> &text)
   coarse.end_step([](const Point<3> &x) {
     return Vector3{{0.02 * x[0] * x[0], 0., 0.}};
   });
-  DisplacementTransfer transfer(
-    coarse.discretization,
-    {},
-    coarse.assembly.section_states(),
-    std::vector<bool>(coarse.discretization.triangulation().n_active_cells(),
-                      true));
-  auto mesh = coarse.discretization.release_triangulation();
-  transfer.refine(*mesh);
+  PartTransfer transfer(coarse.discretization,
+                        {},
+                        coarse.assembly.section_states().of_rules());
+  auto         mesh = coarse.discretization.release_triangulation();
+  transfer.refine(*mesh, std::vector<bool>(mesh->n_active_cells(), true));
   const Discretization fine(std::move(mesh),
                             text.model.midsurface,
                             Element{ElementType::lagrange, 2},
                             0,
                             Cuts());
   SectionStates        states(text.section);
-  transfer.set_states(fine, states);
+  states.take(fine, transfer);
   double error = 0.;
   for (const auto &cell : fine.dof_handler().active_cell_iterators())
     if (!cell->is_artificial())
