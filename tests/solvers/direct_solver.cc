@@ -36,10 +36,14 @@ using TrilinosVector = TrilinosWrappers::MPI::Vector;
 
 const MPI_Comm comm = MPI_COMM_WORLD;
 
+/** Of report(); mutants are noticed by the exit code. */
+unsigned int n_failures = 0;
+
 /** Complain on rank 0, or state that all is well. */
 void
 report(const std::string &name, const bool is_good, const double value = 0.)
 {
+  n_failures += (is_good ? 0 : 1);
   if (Utilities::MPI::this_mpi_process(comm) == 0)
     std::cout << name << ": "
               << (is_good ? "OK" : "failed, " + std::to_string(value))
@@ -464,4 +468,5 @@ main(int argc, char *argv[])
   test_definite_only();
   test_reuse();
   test_empty_ranks();
+  return n_failures > 0;
 }
