@@ -102,7 +102,7 @@ namespace Nacre
       , first_method(quickest_method())
     {}
 
-    /** @return whether the matrix is regular, or else definite. */
+    /** @return whether it is regular, or, if it has to be, definite. */
     bool
     factorize(const TrilinosMatrix &matrix, const bool definite_only);
     /** Discard analysis and factors if the nonzero entries have changed. */
