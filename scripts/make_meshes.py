@@ -7,6 +7,8 @@
   make_meshes.py --check   compare them with what would be written
   make_meshes.py --folder FOLDER [--cells N]
                            write them elsewhere, the roofs with N x N cells
+  make_meshes.py --cap ANGLE SECTOR FILE.msh
+                           another cap: its half angle and its sector in degrees
 
 A quarter of the Scordelis-Lo roof, x = (R sin u, v, R cos u), 0 <= u <= 40
 degrees, 0 <= v <= L/2, in several formats, a strip folded twice, sectors of
@@ -415,7 +417,14 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--folder", type=pathlib.Path, default=FOLDER)
     parser.add_argument("--cells", type=int, default=4)
+    parser.add_argument("--cap", nargs=3, metavar=("ANGLE", "SECTOR", "FILE"))
     arguments = parser.parse_args()
+    if arguments.cap:
+        half_angle, sector, file = arguments.cap
+        lines = gmsh_2(cap(float(half_angle), float(sector)))
+        pathlib.Path(file).write_text("\n".join(lines) + "\n",
+                                      encoding="utf-8")
+        return 0
     wrong = 0
     for name, lines in files(arguments.cells).items():
         path, content = arguments.folder / name, "\n".join(lines) + "\n"
