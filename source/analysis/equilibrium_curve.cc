@@ -358,17 +358,15 @@ namespace Nacre
     return false;
   }
 
-  std::optional<PathState>
-  EquilibriumCurve::narrow(const PathState &before,
-                           const int        turn,
-                           PathPoint       &point)
+  void
+  EquilibriumCurve::narrow(Bracket &bracket, PathPoint &point)
   {
     // All planes are normal to the step, so that states don't overtake.
-    Vector normal(point.state.motion.u);
-    normal -= before.motion.u;
+    Vector normal(bracket.high.motion.u);
+    normal -= bracket.low.motion.u;
     const MassTerms       mass(system_.discretization());
+    const int             turn = bracket.turn;
     Vector                mode = any_mode();
-    Bracket               bracket{before, point.state, turn};
     std::optional<double> crossing, time;
     bool                  is_found = false;
     for (unsigned int k = 0; k < 40 && !is_found; ++k)
@@ -393,7 +391,7 @@ namespace Nacre
                                 bracket.size <= 1e-2);
       }
     if (bracket.between)
-      return bracket.between;
+      return;
     // Not at the crossing itself, where the tangent would be singular.
     place(bracket, std::min(crossing.value_or(1.) + 1e-4, 1.), normal, point);
     const bool is_limit =
@@ -409,7 +407,6 @@ namespace Nacre
     if (!is_found)
       point.kind += " (not pinpointed)";
     point.state.motion.a = scaled_mode(mode);
-    return {};
   }
 
   void
@@ -444,13 +441,16 @@ namespace Nacre
     point.state    = after;
     // The point lies before what the step has reached.
     point.state.n_controls = before.n_controls;
-    const auto between =
-      narrow(before, point.n_before == point.n_after ? turn : 0, point);
-    if (!between)
-      return {point};
-    auto       points = find_points(before, *between, 0);
-    const auto others = find_points(*between, after, 0);
-    points.insert(points.end(), others.begin(), others.end());
+    Bracket bracket{before, after, point.n_before == point.n_after ? turn : 0};
+    narrow(bracket, point);
+    std::vector<PathPoint> points = {point};
+    if (bracket.between)
+      points = find_points(before, *bracket.between, 0);
+    // The rest of the step may have points as well.
+    const PathState &rest = bracket.between ? *bracket.between : bracket.high;
+    if (rest.n_negative_pivots != after.n_negative_pivots)
+      for (const PathPoint &other : find_points(rest, after, 0))
+        points.push_back(other);
     return points;
   }
 

@@ -139,7 +139,7 @@ namespace Nacre
     };
 
     /**
-     * The point at which stability changes within the step from @p before to
+     * The points at which stability changes within the step from @p before to
      * @p after: to 1e-6 of t or of the time step. Or that at which t turns; or
      * the two at which stability changes and changes back.
      */
@@ -149,8 +149,8 @@ namespace Nacre
                 const int        turn);
 
     /**
-     * Narrow down the point between @p before and point.state, which becomes
-     * its state, with the mode there, and tell its kind.
+     * Narrow down the first point in @p bracket, set the state of @p point,
+     * with the mode there, and tell its kind.
      *
      * The eigenvalue's crossing of zero is interpolated from states on both
      * sides: a mesh that lacks the shell's symmetry a little makes another
@@ -158,11 +158,11 @@ namespace Nacre
      * no bisection leads.
      *
      * Where t turns but stability stays, the smallest eigenvalue touches zero,
-     * and dt/ds crosses it. Returns a state of another stability if there is
-     * one in between: the point is not set then.
+     * and dt/ds crosses it. If there is a state of another stability in
+     * between, it enters bracket.between, and the point is not set.
      */
-    std::optional<PathState>
-    narrow(const PathState &before, const int turn, PathPoint &point);
+    void
+    narrow(Bracket &bracket, PathPoint &point);
 
     /**
      * Replace an end of the @p bracket by a state about @p share of the way
