@@ -2,8 +2,9 @@
 // Copyright (C) 2026 by the Nacre authors
 
 // A section whose law isn't linear, in finite rotations and in small
-// displacements: forces are the gradient of the energy, the tangent is symmetric and exact but
-// for the third derivatives of the section's energy at edges that bend.
+// displacements: forces are the gradient of the energy, the tangent is
+// symmetric and exact but for the third derivatives of the section's energy at
+// edges that bend.
 
 #include "finite_shell.h"
 #include "power_section.h"
