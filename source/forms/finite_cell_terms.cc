@@ -35,15 +35,18 @@ namespace Nacre
   } // namespace
 
   FiniteCellTerms::CellPoints::CellPoints(const Discretization  &discretization,
+                                          const StrainMeasure    measure,
                                           const Quadrature<dim> &quadrature,
                                           const bool             tied,
                                           const bool             bends)
     : values(discretization, quadrature, tied)
+    , cell(measure)
     , bends(bends)
   {}
 
   FiniteCellTerms::FiniteCellTerms(const Discretization &discretization,
                                    const SectionLaw     &section,
+                                   const StrainMeasure   measure,
                                    const MembraneStrain  membrane_strain,
                                    const TangentType     tangent_type,
                                    SectionStates        *states)
@@ -51,6 +54,7 @@ namespace Nacre
     , is_stress_only_(tangent_type == TangentType::stress)
     , states_(states)
     , full_points_(discretization,
+                   measure,
                    cell_quadrature(discretization.element(), membrane_strain),
                    membrane_strain == MembraneStrain::tied,
                    true)
@@ -59,6 +63,7 @@ namespace Nacre
                                          MembraneStrain::full);
     if (blends_integration(discretization.element(), membrane_strain))
       reduced_points_.emplace(discretization,
+                              measure,
                               discretization.element().reduced_quadrature(),
                               false,
                               false);
@@ -79,6 +84,8 @@ namespace Nacre
                             const Vector<double> &u_end,
                             LocalTerms           &terms)
   {
+    Assert(full_points_.cell.measure() == StrainMeasure::green,
+           ExcNotImplemented());
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
     add_terms(part, true, terms);
@@ -217,6 +224,7 @@ namespace Nacre
                                      const unsigned int q)
   {
     const auto        &values = points.values;
+    const bool         varies = points.cell.measure() == StrainMeasure::green;
     const auto        &frame  = points.cell.deformed(q);
     const auto        &m      = points.cell.moment(q);
     const auto        &t      = frame.t0;
@@ -244,7 +252,7 @@ namespace Nacre
             const unsigned int i = values.dof(a, c);
             for (unsigned int v = 0; v < 3; ++v)
               test[(3 + v) * n + i] = kappa[v] * t[c];
-            for (unsigned int g = 0; g < 2; ++g)
+            for (unsigned int g = 0; varies && g < 2; ++g)
               {
                 test[(6 + g) * n + i] = dN[g] * t[c];
                 trial[(6 + g) * n + i] =
@@ -287,7 +295,8 @@ namespace Nacre
         for (unsigned int j = 0; j < n; ++j)
           row[j] += product_(i, j) + product_(j, i);
       }
-    add_membrane_force_stiffness(points, terms);
+    if (points.cell.measure() == StrainMeasure::green)
+      add_membrane_force_stiffness(points, terms);
   }
 
   void

@@ -12,13 +12,18 @@ namespace Nacre
     using Vector3 = Tensor<1, spacedim>;
   } // namespace
 
-  FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw &section,
-                                   const TangentType tangent_type,
-                                   SectionStates    *states)
+  FiniteEdgeTerms::FiniteEdgeTerms(const SectionLaw   &section,
+                                   const StrainMeasure measure,
+                                   const TangentType   tangent_type,
+                                   SectionStates      *states)
     : section_(section)
+    , measure_(measure)
     , limits_gap_(tangent_type == TangentType::symmetric)
     , is_stress_only_(tangent_type == TangentType::stress)
     , states_(states)
+    , point_(measure)
+    , membrane_{
+        {TiedGreenStrain<double>(measure), TiedGreenStrain<double>(measure)}}
   {}
 
   void
@@ -70,6 +75,7 @@ namespace Nacre
     const std::array<const Vector<double> *, 2>                  &u,
     LocalTerms                                                   &terms)
   {
+    Assert(measure_ == StrainMeasure::green, ExcNotImplemented());
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
         for (unsigned int end = 0; end < 2; ++end)
@@ -132,6 +138,8 @@ namespace Nacre
   {
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
+        if (measure_ == StrainMeasure::linear)
+          continue;
         add_side_tangent(edge, s, terms);
         if (section_.is_coupled())
           add_membrane_tangent(edge, s, terms);
@@ -145,6 +153,8 @@ namespace Nacre
                                 const PrescribedRotation &rotation,
                                 const Vector<double>     &u)
   {
+    if (measure_ == StrainMeasure::linear)
+      return 0.;
     extract_nodes(edge, 0, u, u_[0]);
     point_.set_states({});
     point_.reinit(edge, q, section_, 1., rotation, u_);
@@ -228,6 +238,8 @@ namespace Nacre
           const unsigned int i = edge.dof(side, a, c);
           const double       M = membrane_row_[spacedim * a + c];
           trial_rows_(q, i) += mean * point.lambda * M;
+          if (measure_ == StrainMeasure::linear)
+            continue;
           jump_rows_(row, i)  = point.rows[1][a] * point.conormal[c];
           trial_rows_(row, i) = g * M;
         }
@@ -342,13 +354,14 @@ namespace Nacre
   {
     const auto             &shapes = edge.shapes(0);
     FollowingMoment<double> load;
-    extract_nodes(edge, 0, u, u_[0]);
+    const bool              follows = measure_ == StrainMeasure::green;
+    extract_nodes(edge, 0, follows ? u : Vector<double>(), u_[0]);
     force_.assign(shapes.n_nodes(), Vector3());
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
         load.reinit(edge, q, moment[q], u_[0]);
         load.add_force(edge, q, force_);
-        if (!terms.wants_tangent)
+        if (!terms.wants_tangent || !follows)
           continue;
         const auto X = load.derivative();
         for (unsigned int a = 0; a < shapes.n_nodes(); ++a)

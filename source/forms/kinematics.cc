@@ -126,8 +126,9 @@ namespace Nacre
   namespace
   {
     /**
-     * Membrane strains of two rules would have to meet one bending strain: of
-     * large rotations nobody has written that, since tied strains do better.
+     * Membrane strains of two rules would have to meet one bending strain: but
+     * for LinearKinematics nobody has written that, since tied strains do
+     * better.
      */
     void
     refuse_blended_coupling(const Element           &element,
@@ -138,11 +139,12 @@ namespace Nacre
                     !blends_integration(element, options.membrane_strain),
                   ExcMessage(
                     "Discretization/Membrane strain: reduced: in large "
-                    "rotations it has no terms for sections that couple "
-                    "membrane forces and bending; use tied."));
+                    "rotations, and for laws that aren't linear, it has no "
+                    "terms for sections that couple membrane forces and "
+                    "bending; use tied."));
     }
 
-    /** Only the finite rotations ask a section at the strains of now. */
+    /** Only FiniteKinematics asks a section at the strains of now. */
     void
     check_nonlinear(const SectionLaw &section, const KinematicsOptions &options)
     {
@@ -152,11 +154,12 @@ namespace Nacre
                   ExcMessage("Section/Initial strain: a section whose law "
                              "isn't linear has no terms for it; leave it "
                              "empty, or choose another 'Section/Type'."));
-      AssertThrow(options.model == KinematicsModel::finite,
+      AssertThrow(options.model != KinematicsModel::corotational,
                   ExcMessage("Discretization/Kinematics: '" +
                              name_of(options.model) +
                              "' is for linear sections only, and the law of "
-                             "this section isn't; choose finite."));
+                             "this section isn't; choose finite, or linear "
+                             "for small displacements."));
       AssertThrow(section.is_coupled(),
                   ExcMessage("Section: a law that isn't linear must be said to "
                              "couple membrane forces and bending."));
@@ -191,15 +194,19 @@ namespace Nacre
                                                         options.membrane_strain,
                                                         options.tangent);
       }
-    if (options.model == KinematicsModel::finite)
+    const bool is_finite = options.model == KinematicsModel::finite;
+    if (is_finite || !section.is_linear())
       {
-        AssertThrow(options.tangent != TangentType::frozen,
+        AssertThrow(!is_finite || options.tangent != TangentType::frozen,
                     ExcMessage("Discretization/Tangent: 'frozen' is of the "
                                "co-rotational form; 'Kinematics = finite' has "
                                "the exact one only: choose 'symmetric'."));
         refuse_blended_coupling(discretization.element(), section, options);
         return std::make_unique<FiniteKinematics>(discretization,
                                                   section,
+                                                  is_finite ?
+                                                    StrainMeasure::green :
+                                                    StrainMeasure::linear,
                                                   options.membrane_strain,
                                                   options.tangent,
                                                   states);

@@ -16,7 +16,8 @@ namespace Nacre
                   "large strains, by the subsection Neo-Hookean and the "
                   "thickness and density below; elastoplastic: the isotropic "
                   "section, whose layers yield, by the subsection Plasticity. "
-                  "The last two need 'Discretization/Kinematics = finite'.",
+                  "The last two need an analysis that iterates, and "
+                  "'Discretization/Kinematics = finite' or 'linear'.",
                   prm,
                   Patterns::Selection(
                     "isotropic|laminate|neo-Hookean|elastoplastic"));

@@ -54,9 +54,11 @@ namespace Nacre
       , moments_(fields.size())
       , rotations_(fields.size())
       , is_linear_(estimator.parts_.kinematics.model == KinematicsModel::linear)
+      , has_linear_form_(is_linear_ && estimator.parts_.section.is_linear())
+      , measure_(is_linear_ ? StrainMeasure::linear : StrainMeasure::green)
       , u_(discretization_.node_dofs().size())
     {
-      Assert(is_linear_ || fields.size() == 1, ExcInternalError());
+      Assert(has_linear_form_ || fields.size() == 1, ExcInternalError());
       fill_weights();
       for (unsigned int f = 0; f < fields.size(); ++f)
         for (unsigned int g = f; g < fields.size(); ++g)
@@ -379,7 +381,7 @@ namespace Nacre
         {
           for (unsigned int f = 0; f < fields_.size(); ++f)
             vectors_[f] = tractions[f][q];
-          is_linear_ ? fill_jumps(q) : fill_finite_jumps(q);
+          has_linear_form_ ? fill_jumps(q) : fill_energy_jumps(q);
           if (n_sides == 1)
             apply_boundary_data(id, load, q);
           add_edge_point(q);
@@ -426,34 +428,30 @@ namespace Nacre
         prescribed_ = found->second;
     }
 
-    /** fill_jumps() of a deformed state, what is prescribed included. */
+    /** fill_jumps() by energies, what is prescribed included. */
     void
-    fill_finite_jumps(const unsigned int q)
+    fill_energy_jumps(const unsigned int q)
     {
       const unsigned int n_sides = edge_.n_sides();
-      const bool         coupled = estimator_.parts_.section.is_coupled();
+      const auto        &section = estimator_.parts_.section;
+      const auto *const  strains = section.is_coupled() ? &membrane_ : nullptr;
       if (q == 0)
-        point_.set_states(
-          SectionStates::of_edge(fields_[0].section_states, edge_));
-      if (q == 0)
-        for (unsigned int side = 0; side < n_sides; ++side)
-          {
-            auto &nodes = nodes_[side];
-            nodes.resize(edge_.shapes(side).n_nodes());
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int c = 0; c < spacedim; ++c)
-                nodes[a][c] = (*fields_[0].displacement)(
-                  edge_.dof_indices()[edge_.dof(side, a, c)]);
-            if (coupled)
-              membrane_[side].reinit(EdgeSideTying(edge_, side), nodes);
-          }
-      point_.reinit(edge_,
-                    q,
-                    estimator_.parts_.section,
-                    1.,
-                    n_sides == 1 ? prescribed_[q] : PrescribedRotation(),
-                    nodes_,
-                    coupled ? &membrane_ : nullptr);
+        {
+          point_.set_states(
+            SectionStates::of_edge(fields_[0].section_states, edge_));
+          dealii::Vector<double> u(edge_.n_dofs());
+          for (unsigned int i = 0; i < u.size(); ++i)
+            u[i] = (*fields_[0].displacement)(edge_.dof_indices()[i]);
+          for (unsigned int s = 0; s < n_sides; ++s)
+            {
+              extract_nodes(edge_, s, u, nodes_[s]);
+              if (strains != nullptr)
+                membrane_[s].reinit(EdgeSideTying(edge_, s), nodes_[s]);
+            }
+        }
+      const auto rotation =
+        n_sides == 1 ? prescribed_[q] : PrescribedRotation();
+      point_.reinit(edge_, q, section, 1., rotation, nodes_, strains);
       stiffness_    = point_.stiffness();
       rotations_[0] = point_.jump();
       moments_[0]   = 0.;
@@ -484,7 +482,7 @@ namespace Nacre
               vectors_[f] -=
                 load.force_at(point, edge_.conormal(0, q), instant_of(f));
               moments_[f] -= load.moment_at(point, instant_of(f));
-              if (rotates && is_linear_)
+              if (rotates && has_linear_form_)
                 rotations_[f] -= (*edge->second.rotation)(point, instant_of(f));
             }
           vectors_[f] = estimator_.conditions_.free_part(id,
@@ -562,15 +560,17 @@ namespace Nacre
     std::vector<Vector3> tangents_;
     /** Sum of the sides' normals, deformed in large rotations. */
     Vector3 normal_;
-    /** @name In large rotations */
+    /** @name In large rotations, and of laws that aren't linear */
     //@{
-    const bool                             is_linear_;
+    const bool                             is_linear_, has_linear_form_;
+    const StrainMeasure                    measure_;
     dealii::Vector<double>                 u_;
     std::vector<types::global_dof_index>   dofs_;
     std::array<NodeVectors<double>, 2>     nodes_;
-    std::array<TiedGreenStrain<double>, 2> membrane_;
-    FiniteEdgePoint<double>                point_;
-    std::vector<PrescribedRotation>        prescribed_;
+    std::array<TiedGreenStrain<double>, 2> membrane_{
+      {TiedGreenStrain<double>(measure_), TiedGreenStrain<double>(measure_)}};
+    FiniteEdgePoint<double>         point_{measure_};
+    std::vector<PrescribedRotation> prescribed_;
     //@}
   };
 

@@ -57,6 +57,7 @@ namespace Nacre
     std::array<Vector3, 5>
     vectors_at(const ShellCellValues        &values,
                const SectionLaw             &section,
+               const SectionStates::Points  &states,
                const dealii::Vector<double> &u,
                const unsigned int            q)
     {
@@ -67,8 +68,9 @@ namespace Nacre
             eps[v] += values.membrane_rows()(3 * q + v, i) * u[i];
             rho[v] += values.bending_rows()(3 * q + v, i) * u[i];
           }
-      const auto &frame  = values.frame(q);
-      const auto  answer = section.response(eps, rho, frame, values.point(q));
+      const auto &frame = values.frame(q);
+      const auto  answer =
+        section.response(eps, rho, frame, values.point(q), states[q].values);
       return vectors_of(frame,
                         frame.j0 * answer.membrane_force,
                         frame.j0 * answer.moment);
@@ -126,21 +128,19 @@ namespace Nacre
           {
             for (unsigned int i = 0; i < u.size(); ++i)
               u[i] = (*displacements[d])(dofs[i]);
+            const auto at_start = states != nullptr ?
+                                    states->of_cell(part, values) :
+                                    SectionStates::Points();
             if (!is_linear)
-              deform(values,
-                     section,
-                     states != nullptr ? states->of_cell(part, values) :
-                                         SectionStates::Points(),
-                     u,
-                     deformed);
+              deform(values, section, at_start, u, deformed);
             Vector3 *nodal = &nodal_[begin(part, d)];
             for (unsigned int q = 0; q < quadrature.size(); ++q)
               {
-                const auto vectors = is_linear ?
-                                       vectors_at(values, section, u, q) :
-                                       vectors_of(deformed.deformed(q),
-                                                  deformed.force(q),
-                                                  deformed.moment(q));
+                const auto vectors =
+                  is_linear ? vectors_at(values, section, at_start, u, q) :
+                              vectors_of(deformed.deformed(q),
+                                         deformed.force(q),
+                                         deformed.moment(q));
                 for (unsigned int v = 0; v < n_vectors; ++v)
                   for (unsigned int a = 0; a < n_nodes_; ++a)
                     nodal[v * n_nodes_ + a] += projection(a, q) * vectors[v];

@@ -255,20 +255,19 @@ namespace Nacre
     if (section.is_linear())
       return;
     const std::string is_not = " and the law of this section isn't linear";
-    AssertThrow(!seeks_modes(path.type),
+    AssertThrow(!path.is_linear() && !seeks_modes(path.type),
                 ExcMessage("Analysis/Type: '" + name_of(path.type) +
                            "' is for linear sections only," + is_not +
                            "; choose static or another path."));
-    AssertThrow(problem.model.kinematics.model == KinematicsModel::finite,
-                ExcMessage("Discretization/Kinematics: '" +
-                           name_of(problem.model.kinematics.model) +
-                           "' is for linear sections only," + is_not +
-                           "; choose finite."));
     AssertThrow(!path.is_dynamic() ||
                   path.scheme != TimeScheme::energy_momentum,
                 ExcMessage("Analysis/Scheme: 'energy momentum' conserves the "
                            "energy of linear sections only," +
                            is_not + "; choose another scheme."));
+    AssertThrow(problem.model.cuts.tips == CutTips::closed,
+                ExcMessage("Cuts/Tips: '" + name_of(problem.model.cuts.tips) +
+                           "' is for linear sections only," + is_not +
+                           "; choose closed."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage("Growth/Tips: cuts grow in linear sections only," +
                            is_not + "; leave it empty."));

@@ -153,7 +153,8 @@ main(int argc, char *argv[])
               std::abs(refined[2000000][3] / whole[2000000][3] - 1.),
               0.2);
 
-  test_refusal({"Discretization/Kinematics=linear"}, "choose finite");
+  test_refusal({"Discretization/Kinematics=linear", "Analysis/Type=linear"},
+               "'linear' is for linear sections only");
   test_refusal({"Discretization/Kinematics=corotational"}, "choose finite");
   test_refusal({"Analysis/Type=dynamic",
                 "Section/Density=1",

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-// Finite rotations with a section whose law isn't linear: forces are the
-// gradient of the energy, the tangent is symmetric and exact but for the third
-// derivatives of the section's energy at edges that bend.
+// A section whose law isn't linear, in finite rotations and in small
+// displacements: forces are the gradient of the energy, the tangent is
+// symmetric and exact but for the third derivatives of the section's energy at
+// edges that bend.
 
 #include "finite_shell.h"
 #include "power_section.h"
@@ -34,13 +35,17 @@ using Isotropic = PowerParameters<LinearElasticSection>;
 template <typename AnyParameters>
 Assembly
 make_assembly(const Discretization &discretization,
-              const AnyParameters  &parameters)
+              const AnyParameters  &parameters,
+              const KinematicsModel model  = KinematicsModel::finite,
+              const MembraneStrain  strain = MembraneStrain::tied)
 {
+  KinematicsOptions options = finite(strain);
+  options.model             = model;
   return Assembly(discretization,
                   ShellParts(parameters.section,
                              parameters.conditions,
                              parameters.loads,
-                             finite(MembraneStrain::tied),
+                             options,
                              7.));
 }
 
@@ -161,22 +166,27 @@ tangent_error(const std::string    &name,
 
 /** A creased and curved mesh, hanging nodes, opposite orientations. */
 void
-test_difficult_mesh(const double beta)
+test_difficult_mesh(const double beta, const KinematicsModel model)
 {
   const Isotropic parameters(beta);
-  for (const unsigned int degree : {2, 3})
+  for (unsigned int degree = 2;
+       degree <= (model == KinematicsModel::linear ? 2 : 3);
+       ++degree)
     {
       const auto discretization =
         make_discretization(difficult_mesh(true), degree);
-      const auto assembly = make_assembly(*discretization, parameters);
+      const auto assembly = make_assembly(*discretization, parameters, model);
       auto       u        = interpolate(*discretization, some_field);
       u.add(0.05, direction(*discretization, 3));
-      const std::string name = "p = " + std::to_string(degree) + ": ";
+      const std::string name =
+        name_of(model) + ", p = " + std::to_string(degree) + ": ";
       test_gradient(name, *discretization, assembly, u);
       const double missing = tangent_error(name, *discretization, assembly, u);
       check_above(name + "third derivatives that edges leave out",
                   missing,
                   1e-5);
+      if (model == KinematicsModel::linear)
+        continue;
       check_below(name + "rigid motion",
                   relative_force(*discretization,
                                  assembly,
@@ -188,7 +198,7 @@ test_difficult_mesh(const double beta)
 
 /** Edges without a jump of rotations leave nothing out. */
 void
-test_smooth_field(const double beta)
+test_smooth_field(const double beta, const KinematicsModel model)
 {
   const Isotropic parameters(beta);
   Mesh            mesh = difficult_mesh(false);
@@ -197,42 +207,74 @@ test_smooth_field(const double beta)
   for (unsigned int i = 0; i < mesh.vertices.size(); ++i)
     mesh.vertices[i] = {i % 3 + 0.2 * (i / 3), 0.9 * (i / 3), 0.};
   const auto discretization = make_discretization(mesh, 2);
-  const auto assembly       = make_assembly(*discretization, parameters);
-  const auto u = interpolate(*discretization, [](const Point<3> &x) {
+  const auto assembly       = make_assembly(*discretization, parameters, model);
+  const auto u           = interpolate(*discretization, [](const Point<3> &x) {
     return Vector3{{0.2 * x[0] * x[1],
                     0.1 * x[0] * x[0] - 0.2 * x[1],
                     0.4 * x[0] * x[0] - 0.3 * x[0] * x[1] + 0.2 * x[1]}};
   });
-  check_below("smooth: tangent is the derivative of the force",
-              tangent_error("smooth: ", *discretization, assembly, u),
+  const std::string name = name_of(model) + ", smooth: ";
+  check_below(name + "tangent is the derivative of the force",
+              tangent_error(name, *discretization, assembly, u),
               1e-10);
 }
 
-/** With beta = 0 the law is linear. */
-void
-test_linear_limit()
+/** The energies, the force at @p u and the matrix of an assembly. */
+struct Answer
 {
-  const auto     discretization = make_discretization(difficult_mesh(true), 2);
-  const auto     u              = interpolate(*discretization, some_field);
-  Energies       linear, power;
-  TrilinosVector difference;
+  template <typename AnyParameters>
+  Answer(const Discretization &discretization,
+         const AnyParameters  &parameters,
+         const KinematicsModel model,
+         const MembraneStrain  strain,
+         const TrilinosVector &u)
   {
-    const Parameters parameters(section_text(100., 0.3, 0.2));
-    const auto       assembly = make_assembly(*discretization, parameters);
-    linear                    = assembly.energies(u);
-    difference                = force_at(assembly, u);
+    const auto assembly =
+      make_assembly(discretization, parameters, model, strain);
+    energies = assembly.energies(u);
+    force    = force_at(assembly, u);
+    tangent  = dense_tangent(discretization,
+                            assembly,
+                            u,
+                            discretization.node_constraints())
+                .first;
   }
-  const double    scale = difference.linfty_norm();
-  const Isotropic parameters(0.);
-  const auto      assembly = make_assembly(*discretization, parameters);
-  power                    = assembly.energies(u);
-  difference -= force_at(assembly, u);
-  check_below("linear limit: forces", difference.linfty_norm() / scale, 1e-12);
-  check_below("linear limit: energies",
-              (std::abs(power.membrane - linear.membrane) +
-               std::abs(power.bending - linear.bending) +
-               std::abs(power.edge - linear.edge)) /
-                linear.total(),
+
+  Energies           energies;
+  TrilinosVector     force;
+  FullMatrix<double> tangent;
+};
+
+/**
+ * With beta = 0 the law is linear: FiniteKinematics and, in small
+ * displacements, LinearKinematics as before.
+ */
+void
+test_linear_limit(const KinematicsModel model, const MembraneStrain strain)
+{
+  const auto discretization = make_discretization(difficult_mesh(true), 2);
+  const auto u              = interpolate(*discretization, some_field);
+  const auto answer         = [&](const auto &parameters) {
+    return Answer(*discretization, *parameters, model, strain, u);
+  };
+  // One object with parameters at a time
+  Answer linear =
+    answer(std::make_unique<Parameters>(section_text(100., 0.3, 0.2)));
+  const Answer power  = answer(std::make_unique<Isotropic>(0.));
+  const double scale  = linear.force.linfty_norm();
+  const double energy = linear.energies.total();
+  linear.force -= power.force;
+  const std::string name =
+    "linear limit, " + name_of(model) + ", " + name_of(strain) + ": ";
+  check_below(name + "forces", linear.force.linfty_norm() / scale, 1e-12);
+  check_below(name + "energies",
+              (std::abs(power.energies.membrane - linear.energies.membrane) +
+               std::abs(power.energies.bending - linear.energies.bending) +
+               std::abs(power.energies.edge - linear.energies.edge)) /
+                energy,
+              1e-12);
+  check_below(name + "tangent",
+              relative_difference(power.tangent, linear.tangent),
               1e-12);
 }
 
@@ -257,40 +299,41 @@ test_memory(const double beta)
 }
 
 void
-test_refusals()
+test_refusal()
 {
   const Isotropic parameters(1.);
   const auto      discretization = make_discretization(difficult_mesh(true), 2);
-  for (const auto model :
-       {KinematicsModel::linear, KinematicsModel::corotational})
+  bool            refused        = false;
+  try
     {
-      bool refused = false;
-      try
-        {
-          make_kinematics(*discretization,
-                          parameters.section,
-                          {MembraneStrain::tied,
-                           EdgeForm::rotation_jump,
-                           model,
-                           TangentType::symmetric});
-        }
-      catch (const ExceptionBase &error)
-        {
-          refused = std::string(error.what()).find("choose finite") !=
-                    std::string::npos;
-        }
-      check_above(name_of(model) + " kinematics refuse the law", refused, 0.5);
+      make_kinematics(*discretization,
+                      parameters.section,
+                      {MembraneStrain::tied,
+                       EdgeForm::rotation_jump,
+                       KinematicsModel::corotational,
+                       TangentType::symmetric});
     }
+  catch (const ExceptionBase &error)
+    {
+      refused =
+        std::string(error.what()).find("choose finite") != std::string::npos;
+    }
+  check_above("corotational kinematics refuse the law", refused, 0.5);
 }
 
 int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  test_linear_limit();
-  test_difficult_mesh(2e-3);
-  test_smooth_field(0.05);
+  test_linear_limit(KinematicsModel::finite, MembraneStrain::tied);
+  test_linear_limit(KinematicsModel::linear, MembraneStrain::tied);
+  test_linear_limit(KinematicsModel::linear, MembraneStrain::full);
+  for (const auto model : {KinematicsModel::finite, KinematicsModel::linear})
+    {
+      test_difficult_mesh(2e-3, model);
+      test_smooth_field(0.05, model);
+    }
   test_memory(2e-3);
-  test_refusals();
+  test_refusal();
   return n_failures > 0;
 }

@@ -67,5 +67,7 @@ metal("yield_stress", [YIELD, "0", "positive"], **{YIELD: "0"})
 metal("softening", [HARDENING, "-0.1", "not be negative"],
       **{HARDENING: "-0.1"})
 metal("simpson_points", [POINTS, "7", "5, 9, 13"], **{POINTS: "7"})
-metal("linear_kinematics", ["finite"],
-      **{"Discretization/Kinematics": "linear"})
+metal("corotational", ["Discretization/Kinematics", "corotational", "finite"],
+      **{"Discretization/Kinematics": "corotational"})
+metal("linear_analysis", ["Analysis/Type", "linear", "static"],
+      **{"Discretization/Kinematics": "linear", "Analysis/Type": "linear"})

@@ -144,5 +144,55 @@ def plastic_plate(folder):
                 (1.087 * unit, 6.3), (3 * unit, 6.5)], 5e-3)
 
 
+@test(1, 2)
+def never_yields(folder):
+    """In small displacements a metal that doesn't yield is the linear section:
+    supports that turn, edge moments, a cut through the inside of cells."""
+    rows = {}
+    for kind in "isotropic", "elastoplastic":
+        folder.write("shell.prm", f"""
+subsection Mid-surface
+  set Surface      = cylinder
+  set Subdivisions = 3
+  subsection cylinder
+    set Radius      = 2
+    set Angle range = 0, 60
+    set Axial range = 0, 2
+  end
+end
+subsection Section
+  set Type            = {kind}
+  set Young's modulus = 100
+  set Thickness       = 0.1
+  subsection Plasticity
+    set Yield stress = 1e9
+  end
+end
+subsection Boundary conditions
+  set Edges = u=0: clamped; u=1: rotation = 0.2*t; v=0: symmetry
+end
+subsection Loads
+  set Force per area = 0, 0.1, -0.01
+  set Edge moments   = v=1: 0.05
+end
+subsection Cuts
+  set Cuts = slit: uv (0.31, 0.2) (0.6, 0.87)
+end
+subsection Analysis
+  set Type = static
+end
+subsection Quantities
+  set Quantities = w = maximum displacement; U = energy; \\
+                   M = moment 11 at (1.9, 0.6, 1)
+end
+""")
+        folder.succeed("shell.prm", **COARSE, Study__Refinements="0")
+        rows[kind] = folder.rows("case.csv")[-1]
+    linear, metal = rows["isotropic"], rows["elastoplastic"]
+    for column in "w", "U", "M":
+        check(near(float(metal[column]), float(linear[column]), 1e-9),
+              f"{column}: {metal}, not {linear}")
+
+
 if __name__ == "__main__":
     main(TESTS)

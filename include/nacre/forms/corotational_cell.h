@@ -21,17 +21,13 @@ namespace Nacre
                  const unsigned int         q,
                  const NodeVectors<Number> &u)
   {
-    const auto du = displacement_gradient(shapes, q, u);
-    std::array<Tensor<1, spacedim, Number>, 3> ddu;
+    const auto du    = displacement_gradient(shapes, q, u);
+    auto       ddphi = displacement_hessian(shapes, q, u);
     for (unsigned int v = 0; v < 3; ++v)
-      {
-        ddu[v] = frame.a_cov_derivatives[v];
-        for (unsigned int a = 0; a < u.size(); ++a)
-          ddu[v] += shapes.hessian(q, a)[v] * u[a];
-      }
+      ddphi[v] += frame.a_cov_derivatives[v];
     return make_surface_frame<Number>(frame.a_cov[0] + du[0],
                                       frame.a_cov[1] + du[1],
-                                      ddu);
+                                      ddphi);
   }
 
   /**

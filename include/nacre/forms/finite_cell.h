@@ -11,6 +11,31 @@
 namespace Nacre
 {
   /**
+   * kappa at the point @p q of @p shapes for the displacements @p u of nodes,
+   * and the frame @p geometry of its variations: the deformed one, of
+   * StrainMeasure::linear the undeformed one.
+   */
+  template <typename Number>
+  Voigt<Number>
+  bending_strain(const StrainMeasure        measure,
+                 const SurfaceFrame<>      &frame,
+                 const ShapeTable          &shapes,
+                 const unsigned int         q,
+                 const NodeVectors<Number> &u,
+                 SurfaceFrame<Number>      &geometry)
+  {
+    if (measure == StrainMeasure::green)
+      {
+        geometry = deformed_frame(frame, shapes, q, u);
+        return CorotationalStrain::bending(frame, geometry);
+      }
+    geometry = deformed_frame(frame, shapes, q, NodeVectors<Number>());
+    return ShellStrain::bending(frame,
+                                displacement_gradient(shapes, q, u),
+                                displacement_hessian(shapes, q, u));
+  }
+
+  /**
    * Strains, resultants and internal forces of a cell with exact finite
    * rotations, at the points of one rule:
    *
@@ -18,8 +43,8 @@ namespace Nacre
    *
    * w the section's energy, 1/2 E : n + 1/2 kappa : m of linear laws, E the
    * Green strain (GreenStrain), sampled at the tying points and interpolated to
-   * the points q, and kappa the exact change of curvature. The forces are the
-   * exact gradient of W.
+   * the points q, and kappa the exact change of curvature; or those of
+   * StrainMeasure::linear. The forces are the exact gradient of W.
    *
    * Templated on the scalar, so that tests can take complex steps; laws that
    * aren't linear know real numbers only.
@@ -29,6 +54,11 @@ namespace Nacre
   {
   public:
     using Vector = Tensor<1, spacedim, Number>;
+
+    explicit FiniteCell(const StrainMeasure measure = StrainMeasure::green)
+      : measure_(measure)
+      , membrane_(measure)
+    {}
 
     /**
      * @param sections at the points, area and weight included; they take the
@@ -51,9 +81,12 @@ namespace Nacre
           membrane_strains_[q] = membrane_.tied_strain(values.tying(), q);
           if (!bends)
             continue;
-          deformed_[q] = deformed_frame(values.frame(q), values.shapes(), q, u);
-          bending_strains_[q] =
-            CorotationalStrain::bending(values.frame(q), deformed_[q]);
+          bending_strains_[q] = bending_strain(measure_,
+                                               values.frame(q),
+                                               values.shapes(),
+                                               q,
+                                               u,
+                                               deformed_[q]);
         }
       set_resultants(values, sections);
     }
@@ -63,7 +96,7 @@ namespace Nacre
      * resultants, and StepDifferences' frames. The forces then do the work
      * W(end) - W(start) on the step's displacement: E is quadratic in it, so
      * that its difference is dE at the mean, and Delta(kappa) is that of
-     * StepDifferences::mean_frame(). Of linear laws only.
+     * StepDifferences::mean_frame(). Of linear laws and Green strains only.
      */
     void
     take_means(const ShellCellValues      &values,
@@ -139,7 +172,13 @@ namespace Nacre
       return membrane_;
     }
 
-    /** The deformed frame at the point @p q. */
+    StrainMeasure
+    measure() const
+    {
+      return measure_;
+    }
+
+    /** The frame of the variations, the deformed one, at the point @p q. */
     const SurfaceFrame<Number> &
     deformed(const unsigned int q) const
     {
@@ -182,6 +221,7 @@ namespace Nacre
       membrane_.set_resultants(tying);
     }
 
+    StrainMeasure           measure_;
     bool                    bends_ = true;
     TiedGreenStrain<Number> membrane_;
     /** By point. */

@@ -26,7 +26,7 @@ namespace Nacre
    * 1/2 (m : b) a^gh q_h are rows for N e_c. All but the last sum, which is the
    * same for the three components, is X + X^T with X one dense product of eight
    * rows a point: symmetric by construction. TangentType::stress leaves out
-   * the first sum.
+   * the first sum, StrainMeasure::linear the others.
    */
   class FiniteCellTerms
   {
@@ -34,6 +34,7 @@ namespace Nacre
     /** @param states of the section; null: all are at rest */
     FiniteCellTerms(const Discretization &discretization,
                     const SectionLaw     &section,
+                    const StrainMeasure   measure,
                     const MembraneStrain  membrane_strain,
                     const TangentType     tangent_type,
                     SectionStates        *states);
@@ -74,6 +75,7 @@ namespace Nacre
     struct CellPoints
     {
       CellPoints(const Discretization  &discretization,
+                 const StrainMeasure    measure,
                  const Quadrature<dim> &quadrature,
                  const bool             tied,
                  const bool             bends);

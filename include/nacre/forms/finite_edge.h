@@ -6,30 +6,10 @@
 
 #include <nacre/forms/corotational_edge.h>
 #include <nacre/forms/finite_cell.h>
-
-#include <type_traits>
+#include <nacre/forms/finite_edge_side.h>
 
 namespace Nacre
 {
-  /**
-   * The angle (rad) in (-pi, pi] whose sine and cosine are @p y and @p x times
-   * a positive factor: atan2, for complex steps as well.
-   */
-  template <typename Number>
-  Number
-  angle_of(const Number &y, const Number &x)
-  {
-    using std::atan;
-    using std::real;
-    if constexpr (std::is_same<Number, double>::value)
-      return std::atan2(y, x);
-    else if (std::abs(real(x)) > std::abs(real(y)))
-      return atan(y / x) +
-             (real(x) > 0. ? 0. : std::copysign(numbers::PI, real(y)));
-    else
-      return std::copysign(numbers::PI_2, real(y)) - atan(x / y);
-  }
-
   /**
    * The energy of an edge with exact finite rotations, at one point:
    *
@@ -61,6 +41,10 @@ namespace Nacre
    * in t_bar), the mean is that of the one side, and the penalty twice as
    * large.
    *
+   * StrainMeasure::linear: the variations below at the undeformed surface,
+   * applied to the displacement, are theta and m_nn; lambda is one, and the
+   * angle prescribed is added to theta.
+   *
    * The variations are in terms of v_e = tau^g v,g (along the edge, per length
    * of the undeformed one), v_n = nu^g v,g (along nu, per deformed length) and
    * y = h^ab v,ab of each side; a^g (t . v,g) = d (t . v_e) / |e| +
@@ -74,32 +58,11 @@ namespace Nacre
     using Vector = Tensor<1, spacedim, Number>;
     using Matrix = Tensor<2, spacedim, Number>;
 
-    struct Side
-    {
-      /** Rows of v_e, v_n and y: scalars that multiply the nodes' v. */
-      std::array<std::vector<Number>, 3> rows;
-      /** Components of the undeformed unit tangent d0. */
-      std::array<double, 2> tau;
-      /** Y0 . t0 with sigma (force); of linear laws. */
-      double initial_moment;
-      /** c with sigma: only set for sections that couple. */
-      Voigt<> coupling;
-      /** Factor of the angle of t in alpha, and of lambda m_nn in the mean. */
-      double jump_factor;
-      double mean_factor;
+    using Side = FiniteEdgeSide<Number>;
 
-      SurfaceFrame<Number> deformed;
-      /** sigma t, the deformed conormal nu, and the unit tangent d. */
-      Vector normal;
-      Vector conormal;
-      Vector tangent;
-      /** |e| and lambda (1). */
-      Number length;
-      Number lambda;
-      /** m_nn with sigma (force). */
-      Number moment;
-      Vector Y;
-    };
+    explicit FiniteEdgePoint(const StrainMeasure measure = StrainMeasure::green)
+      : measure_(measure)
+    {}
 
     /** Of initial strains. */
     void
@@ -142,24 +105,13 @@ namespace Nacre
         }
       fluxes_    = edge_fluxes(edge, q, stiffness, penalty);
       stiffness_ = stiffness;
-
-      const Vector &t = sides_[0].normal;
-      const Vector &d = sides_[0].tangent;
-      initial_angle_  = 0.;
-      if (n_sides_ == 2)
-        {
-          const auto d0 =
-            cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
-          const auto &t0 = edge.frame(0, q).t0;
-          const auto  t1 = edge.sigma(1, q) * edge.frame(1, q).t0;
-          initial_angle_ = std::atan2(cross_product_3d(t0, t1) * d0, t0 * t1);
-        }
-      else
-        turn_prescribed_normal(edge, q, rotation);
-      jump_ = angle(t, normal_plus(), d) - initial_angle_;
-      mean_ = 0.;
+      mean_      = 0.;
       for (unsigned int s = 0; s < n_sides_; ++s)
         mean_ += sides_[s].mean_factor * sides_[s].lambda * sides_[s].moment;
+      if (has_linear_strains())
+        set_linear_jump(rotation, u);
+      else
+        set_jump(edge, q, rotation);
     }
 
     const Side &
@@ -273,10 +225,12 @@ namespace Nacre
     std::array<Vector, 3>
     moment_gradient(const unsigned int s) const
     {
-      const Side &side = sides_[s];
+      const Side  &side = sides_[s];
+      const Number stretch =
+        has_linear_strains() ? Number(0.) : side.lambda * side.moment;
       return {
         {(side.lambda * (side.Y * side.tangent) / side.length) * side.normal,
-         (side.lambda * side.moment) * side.conormal +
+         stretch * side.conormal +
            (side.lambda * (side.Y * side.conormal)) * side.normal,
          -side.lambda * side.normal}};
     }
@@ -316,7 +270,9 @@ namespace Nacre
     hessian(const unsigned int s, const bool limits_gap = false) const
     {
       Hessian K;
-      Number  force = rotation_force();
+      if (has_linear_strains())
+        return K;
+      Number force = rotation_force();
       if (limits_gap && n_sides_ == 1)
         {
           using std::abs;
@@ -337,6 +293,45 @@ namespace Nacre
     }
 
   private:
+    bool
+    has_linear_strains() const
+    {
+      return measure_ == StrainMeasure::linear;
+    }
+
+    /** alpha0 and theta, after the sides. */
+    void
+    set_jump(const ShellEdgeValues    &edge,
+             const unsigned int        q,
+             const PrescribedRotation &rotation)
+    {
+      const Vector &t = sides_[0].normal;
+      const Vector &d = sides_[0].tangent;
+      initial_angle_  = 0.;
+      if (n_sides_ == 2)
+        {
+          const auto d0 =
+            cross_product_3d(edge.conormal(0, q), edge.frame(0, q).t0);
+          const auto &t0 = edge.frame(0, q).t0;
+          const auto  t1 = edge.sigma(1, q) * edge.frame(1, q).t0;
+          initial_angle_ = std::atan2(cross_product_3d(t0, t1) * d0, t0 * t1);
+        }
+      else
+        turn_prescribed_normal(edge, q, rotation);
+      jump_ = angle(t, normal_plus(), d) - initial_angle_;
+    }
+
+    /** theta of StrainMeasure::linear. */
+    void
+    set_linear_jump(const PrescribedRotation                 &rotation,
+                    const std::array<NodeVectors<Number>, 2> &u)
+    {
+      spin_ = Vector();
+      jump_ = n_sides_ == 1 ? rotation.angle : 0.;
+      for (unsigned int s = 0; s < n_sides_; ++s)
+        jump_ += sides_[s].variation(jump_gradient(s), u[s]);
+    }
+
     /** Returns the share of the side in D. */
     double
     reinit_side(const ShellEdgeValues               &edge,
@@ -367,6 +362,9 @@ namespace Nacre
       for (unsigned int c = 0; c < spacedim; ++c)
         Y0[c] = real(side.Y[c]);
       side.initial_moment = sigma * (Y0 * frame.t0);
+      // The geometry of the variations
+      const NodeVectors<Number>  none;
+      const NodeVectors<Number> &moved = has_linear_strains() ? none : u;
       for (auto &row : side.rows)
         row.resize(u.size());
       for (unsigned int a = 0; a < u.size(); ++a)
@@ -374,15 +372,10 @@ namespace Nacre
           const auto &ddN = shapes.hessian(q, a);
           side.rows[2][a] =
             H_nu[0] * ddN[0] + H_nu[1] * ddN[1] + 2. * H_nu[2] * ddN[2];
-          side.Y += side.rows[2][a] * u[a];
         }
-      deform(side, frame, displacement_gradient(shapes, q, u), sigma);
-      if (linear)
-        side.moment = side.initial_moment - side.Y * side.normal;
-      if (linear && membrane != nullptr)
-        side.moment += side.coupling * membrane->tied_strain(edge.tying(s), q);
-      if (section.has_initial_strain())
-        side.moment -= initial_moment(edge, s, q, section, instant_);
+      for (unsigned int a = 0; a < moved.size(); ++a)
+        side.Y += side.rows[2][a] * moved[a];
+      side.deform(frame, displacement_gradient(shapes, q, moved), sigma);
       const std::array<Number, 2> nu_con = {
         {side.conormal * side.deformed.a_con[0],
          side.conormal * side.deformed.a_con[1]}};
@@ -392,6 +385,14 @@ namespace Nacre
           side.rows[0][a] = side.tau[0] * dN[0] + side.tau[1] * dN[1];
           side.rows[1][a] = nu_con[0] * dN[0] + nu_con[1] * dN[1];
         }
+      if (linear)
+        side.moment = has_linear_strains() ?
+                        side.variation(moment_gradient(s), u) :
+                        side.initial_moment - side.Y * side.normal;
+      if (linear && membrane != nullptr)
+        side.moment += side.coupling * membrane->tied_strain(edge.tying(s), q);
+      if (section.has_initial_strain())
+        side.moment -= initial_moment(edge, s, q, section, instant_);
       const Voigt<> H_rest =
         linear ? H_nu :
                  section.stiffness(frame, edge.point(q, s)).bending * dyad;
@@ -419,35 +420,15 @@ namespace Nacre
           Voigt<Number> E;
           if (membrane != nullptr)
             E = membrane->tied_strain(edge.tying(s), q);
-          const auto kappa = CorotationalStrain::bending(
-            frame,
-            deformed_frame(frame, edge.shapes(s), q, u));
+          SurfaceFrame<Number> geometry;
+          const auto           kappa =
+            bending_strain(measure_, frame, edge.shapes(s), q, u, geometry);
           blocks.evaluate(E, kappa);
           sides_[s].moment = sigma * (dyad * blocks.moment(E, kappa));
         }
       if (blocks.is_coupled)
         sides_[s].coupling = sigma * (blocks.B * dyad);
       return blocks.D * dyad;
-    }
-
-    /** The deformed frame of the side, and lambda. */
-    static void
-    deform(Side                        &side,
-           const SurfaceFrame<>        &frame,
-           const std::array<Vector, 2> &du,
-           const double                 sigma)
-    {
-      side.deformed  = make_surface_frame<Number>(frame.a_cov[0] + du[0],
-                                                 frame.a_cov[1] + du[1],
-                                                 {});
-      const Vector e = side.tau[0] * side.deformed.a_cov[0] +
-                       side.tau[1] * side.deformed.a_cov[1];
-      using std::sqrt;
-      side.length   = sqrt(Number(e * e));
-      side.tangent  = e / side.length;
-      side.normal   = sigma * side.deformed.t0;
-      side.conormal = cross_product_3d(side.normal, side.tangent);
-      side.lambda   = side.deformed.j0 / (frame.j0 * side.length);
     }
 
     /** From @p t to @p t_plus about @p d. */
@@ -565,6 +546,7 @@ namespace Nacre
       K[1][2] += g * t_nu;
     }
 
+    StrainMeasure       measure_;
     unsigned int        n_sides_ = 0;
     std::array<Side, 2> sides_;
     EdgeFluxes          fluxes_;

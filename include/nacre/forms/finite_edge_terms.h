@@ -24,18 +24,19 @@ namespace Nacre
    *
    *   g dlambda M_q + (g dlambda M_q)^T + g lambda c : d2E.
    *
-   * TangentType::stress leaves out X_q.
+   * TangentType::stress leaves out X_q, StrainMeasure::linear all but X_q.
    */
   class FiniteEdgeTerms
   {
   public:
     /**
-     * @param tangent_type of FiniteKinematics
+     * @param measure, tangent_type of FiniteKinematics
      * @param states of the section; null: all are at rest
      */
-    FiniteEdgeTerms(const SectionLaw &section,
-                    const TangentType tangent_type,
-                    SectionStates    *states);
+    FiniteEdgeTerms(const SectionLaw   &section,
+                    const StrainMeasure measure,
+                    const TangentType   tangent_type,
+                    SectionStates      *states);
 
     /** Of initial strains. */
     void
@@ -66,7 +67,7 @@ namespace Nacre
       const std::array<const Vector<double> *, 2>                  &u,
       LocalTerms                                                   &terms);
 
-    /** |theta| (rad) at the point @p q of a boundary edge. */
+    /** |theta| (rad) at the point @p q of a boundary edge; linear: 0. */
     double
     rotation_gap(const ShellEdgeValues    &edge,
                  const unsigned int        q,
@@ -75,7 +76,7 @@ namespace Nacre
 
     /**
      * The load -int m t . dv/dnu ds0 of FollowingMoment, minus as a residual,
-     * and its derivative.
+     * and its derivative; linear: that of the undeformed edge.
      */
     void
     add_moment(const ShellEdgeValues     &edge,
@@ -138,6 +139,7 @@ namespace Nacre
                  LocalTerms            &terms) const;
 
     const SectionLaw                  &section_;
+    const StrainMeasure                measure_;
     const bool                         limits_gap_;
     const bool                         is_stress_only_;
     SectionStates                     *states_;

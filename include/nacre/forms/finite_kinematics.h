@@ -13,11 +13,17 @@ namespace Nacre
    * Exact finite rotations: one energy of Green strains, changes of curvature
    * and of the angles at edges, with its exact gradient and symmetric Hessian;
    * doc/formulation.md (N.21). Strains and rotations of any size.
+   *
+   * With StrainMeasure::linear the same chain has the strains and the jumps of
+   * small displacements, for laws that aren't linear: the energy of
+   * LinearKinematics with w in place of 1/2 eps : n + 1/2 rho : m. It knows no
+   * energy-momentum steps, which are for linear laws.
    */
   class FiniteKinematics : public Kinematics
   {
   public:
     /**
+     * @param measure of the strains and the angles
      * @param tangent_type consistent: the exact Hessian; symmetric: the same
      *   but for edges far from their prescribed rotation, which Newton's method
      *   then reaches from further away (FiniteEdgePoint::hessian()); stress:
@@ -27,15 +33,17 @@ namespace Nacre
      */
     FiniteKinematics(const Discretization &discretization,
                      const SectionLaw     &section,
+                     const StrainMeasure   measure,
                      const MembraneStrain  membrane_strain,
                      const TangentType     tangent_type,
                      SectionStates *const  states = nullptr)
       : cell_terms_(discretization,
                     section,
+                    measure,
                     membrane_strain,
                     tangent_type,
                     states)
-      , edge_terms_(section, tangent_type, states)
+      , edge_terms_(section, measure, tangent_type, states)
     {}
 
     std::unique_ptr<Kinematics>

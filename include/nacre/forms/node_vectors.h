@@ -31,6 +31,20 @@ namespace Nacre
     return du;
   }
 
+  /** u,11, u,22 and u,12 at the point @p q of @p shapes. */
+  template <typename Number>
+  std::array<Tensor<1, spacedim, Number>, 3>
+  displacement_hessian(const ShapeTable          &shapes,
+                       const unsigned int         q,
+                       const NodeVectors<Number> &u)
+  {
+    std::array<Tensor<1, spacedim, Number>, 3> ddu;
+    for (unsigned int a = 0; a < u.size(); ++a)
+      for (unsigned int v = 0; v < 3; ++v)
+        ddu[v] += shapes.hessian(q, a)[v] * u[a];
+    return ddu;
+  }
+
   /** Displacements of the cell's nodes; zero if @p u is empty. */
   void
   extract_nodes(const ShellCellValues &values,

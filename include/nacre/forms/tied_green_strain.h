@@ -6,6 +6,7 @@
 
 #include <nacre/forms/tied_samples.h>
 #include <nacre/mechanics/green_strain.h>
+#include <nacre/mechanics/strain_measure.h>
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -18,7 +19,8 @@ namespace Nacre
    *
    *   sum_q n_q . dE_q(v) = sum_k n_k^ab phi,a . v,b,
    *
-   * k the tying points and n_k what T^T makes of the forces n_q.
+   * k the tying points and n_k what T^T makes of the forces n_q. Of
+   * StrainMeasure::linear E is eps, and phi,a that of the undeformed surface.
    *
    * The values that give the tying points are ShellCellValues or the side of an
    * edge, EdgeSideTying. Templated on the scalar, so that tests can take
@@ -30,21 +32,31 @@ namespace Nacre
   public:
     using Vector = Tensor<1, spacedim, Number>;
 
+    explicit TiedGreenStrain(const StrainMeasure measure = StrainMeasure::green)
+      : measure_(measure)
+    {}
+
     /** The strains e after the displacement @p u of the nodes; no forces. */
     template <typename Values>
     void
     reinit(const Values &values, const NodeVectors<Number> &u)
     {
-      const auto &tying = values.tying();
+      const auto &tying     = values.tying();
+      const bool  is_linear = measure_ == StrainMeasure::linear;
       tangents_.resize(tying.points().size());
       std::vector<Voigt<Number>> strains(tying.points().size());
       for (unsigned int k = 0; k < strains.size(); ++k)
         {
           const auto &frame = values.tying_frame(k);
           const auto  du = displacement_gradient(values.tying_shapes(), k, u);
-          strains[k]     = GreenStrain::membrane(frame, du);
+          strains[k] = is_linear ? ShellStrain::membrane(frame, du[0], du[1]) :
+                                   GreenStrain::membrane(frame, du);
           for (unsigned int alpha = 0; alpha < 2; ++alpha)
-            tangents_[k][alpha] = frame.a_cov[alpha] + du[alpha];
+            {
+              tangents_[k][alpha] = frame.a_cov[alpha];
+              if (!is_linear)
+                tangents_[k][alpha] += du[alpha];
+            }
         }
       this->set_strains(tying, strains);
       this->clear_forces();
@@ -75,7 +87,13 @@ namespace Nacre
         this->add_force_at(k, tangents_[k], tying_shapes, force);
     }
 
-    /** phi,1 and phi,2 at the tying point @p k. */
+    StrainMeasure
+    measure() const
+    {
+      return measure_;
+    }
+
+    /** The variations' basis phi,1, phi,2 at the tying point @p k. */
     const std::array<Vector, 2> &
     tangents(const unsigned int k) const
     {
@@ -83,6 +101,7 @@ namespace Nacre
     }
 
   private:
+    StrainMeasure measure_;
     /** By tying point. */
     std::vector<std::array<Vector, 2>> tangents_;
   };

@@ -4,7 +4,7 @@
 #ifndef nacre_mechanics_green_strain_h
 #define nacre_mechanics_green_strain_h
 
-#include <nacre/mechanics/surface_frame.h>
+#include <nacre/mechanics/shell_strain.h>
 
 namespace Nacre
 {
@@ -43,11 +43,10 @@ namespace Nacre
     membrane(const SurfaceFrame<>                      &frame,
              const std::array<Tensor<1, 3, Number>, 2> &du)
     {
-      const auto   &a = frame.a_cov;
-      Voigt<Number> strain;
-      strain[0] = a[0] * du[0] + 0.5 * (du[0] * du[0]);
-      strain[1] = a[1] * du[1] + 0.5 * (du[1] * du[1]);
-      strain[2] = a[0] * du[1] + a[1] * du[0] + du[0] * du[1];
+      Voigt<Number> strain = ShellStrain::membrane(frame, du[0], du[1]);
+      strain[0] += 0.5 * (du[0] * du[0]);
+      strain[1] += 0.5 * (du[1] * du[1]);
+      strain[2] += du[0] * du[1];
       return strain;
     }
   } // namespace GreenStrain

@@ -16,11 +16,11 @@ namespace Nacre
      * eps_ab = 1/2 (phi0,a . u,b + u,a . phi0,b), as (e11, e22, 2 e12) in the
      * covariant basis (length^2), from the derivatives u,1 and u,2 (length).
      */
-    template <typename Number>
+    template <typename FrameNumber, typename Number>
     Voigt<Number>
-    membrane(const SurfaceFrame<Number> &frame,
-             const Tensor<1, 3, Number> &u_1,
-             const Tensor<1, 3, Number> &u_2)
+    membrane(const SurfaceFrame<FrameNumber> &frame,
+             const Tensor<1, 3, Number>      &u_1,
+             const Tensor<1, 3, Number>      &u_2)
     {
       Voigt<Number> strain;
       strain[0] = frame.a_cov[0] * u_1;
@@ -57,9 +57,9 @@ namespace Nacre
      * linearisation (4) of -(phi,ab . t) + (phi0,ab . t0), in the cheap form
      * rho_ab(u) = -(u,ab - Gamma^g_ab u,g) . t0; Voigt (11, 22, 2 * 12).
      */
-    template <typename Number>
+    template <typename FrameNumber, typename Number>
     Voigt<Number>
-    bending(const SurfaceFrame<Number>                &frame,
+    bending(const SurfaceFrame<FrameNumber>           &frame,
             const std::array<Tensor<1, 3, Number>, 2> &du,
             const std::array<Tensor<1, 3, Number>, 3> &ddu)
     {
