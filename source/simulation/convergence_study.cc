@@ -21,8 +21,8 @@ namespace Nacre
                   "known as well.");
   }
 
-  ConvergenceStudy::ConvergenceStudy(const MPI_Comm              communicator,
-                                     std::unique_ptr<SectionLaw> section)
+  ConvergenceStudy::ConvergenceStudy(const MPI_Comm communicator,
+                                     std::unique_ptr<SectionParameters> section)
     : ParameterAcceptor("/Study")
     , communicator_(communicator)
     , problem_parameters_(std::move(section))

@@ -10,26 +10,17 @@
 
 #include <random>
 
-/** A law of a linear one, conditions and loads, one object at a time. */
-template <typename Section>
-struct PowerParameters : NoParameters
+/** A law of a linear one, no conditions and no loads. */
+struct PowerParameters
 {
   PowerParameters(const double beta, const bool has_memory = false)
-    : section(beta, has_memory)
-  {
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(
-      section_text(100., 0.3, 0.2));
-    ParameterAcceptor::parse_all_parameters();
-    section.prepare({});
-  }
+    : section(beta, has_memory, 100., 0.3, 0.2)
+  {}
 
-  PowerSection<Section> section;
-  BoundaryConditions    conditions;
-  Loads                 loads;
+  PowerSection<LinearElasticSection> section;
+  BoundaryConditions                 conditions;
+  Loads                              loads;
 };
-
-using Isotropic = PowerParameters<LinearElasticSection>;
 
 template <typename AnyParameters>
 Assembly
@@ -163,7 +154,7 @@ tangent_error(const std::string    &name,
 void
 test_difficult_mesh(const double beta)
 {
-  const Isotropic parameters(beta);
+  const PowerParameters parameters(beta);
   for (const unsigned int degree : {2, 3})
     {
       const auto discretization =
@@ -190,9 +181,9 @@ test_difficult_mesh(const double beta)
 void
 test_smooth_field(const double beta)
 {
-  const Isotropic parameters(beta);
-  Mesh            mesh = difficult_mesh(false);
-  mesh.map             = [](const Point<3> &x) { return x; };
+  const PowerParameters parameters(beta);
+  Mesh                  mesh = difficult_mesh(false);
+  mesh.map                   = [](const Point<3> &x) { return x; };
   // Cells of parallels: a quadratic field of the plane is one of the element.
   for (unsigned int i = 0; i < mesh.vertices.size(); ++i)
     mesh.vertices[i] = {i % 3 + 0.2 * (i / 3), 0.9 * (i / 3), 0.};
@@ -222,10 +213,10 @@ test_linear_limit()
     linear                    = assembly.energies(u);
     difference                = force_at(assembly, u);
   }
-  const double    scale = difference.linfty_norm();
-  const Isotropic parameters(0.);
-  const auto      assembly = make_assembly(*discretization, parameters);
-  power                    = assembly.energies(u);
+  const double          scale = difference.linfty_norm();
+  const PowerParameters parameters(0.);
+  const auto            assembly = make_assembly(*discretization, parameters);
+  power                          = assembly.energies(u);
   difference -= force_at(assembly, u);
   check_below("linear limit: forces", difference.linfty_norm() / scale, 1e-12);
   check_below("linear limit: energies",
@@ -239,11 +230,11 @@ test_linear_limit()
 void
 test_memory(const double beta)
 {
-  const Isotropic parameters(beta, true);
-  const auto      discretization = make_discretization(difficult_mesh(true), 2);
-  const auto      assembly       = make_assembly(*discretization, parameters);
-  const auto      u              = interpolate(*discretization, some_field);
-  const auto      at_end         = force_at(assembly, u);
+  const PowerParameters parameters(beta, true);
+  const auto discretization = make_discretization(difficult_mesh(true), 2);
+  const auto assembly       = make_assembly(*discretization, parameters);
+  const auto u              = interpolate(*discretization, some_field);
+  const auto at_end         = force_at(assembly, u);
   assembly.update_section_states(u, assembly.actions(Instant()));
   auto difference = force_at(assembly, u);
   difference -= at_end;
@@ -259,8 +250,8 @@ test_memory(const double beta)
 void
 test_refusals()
 {
-  const Isotropic parameters(1.);
-  const auto      discretization = make_discretization(difficult_mesh(true), 2);
+  const PowerParameters parameters(1.);
+  const auto discretization = make_discretization(difficult_mesh(true), 2);
   for (const auto model :
        {KinematicsModel::linear, KinematicsModel::corotational})
     {
