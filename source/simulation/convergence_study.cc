@@ -167,10 +167,10 @@ namespace Nacre
       problem_parameters_.make(parse_constants(heading_.constants, "Constants"),
                                shell_case,
                                std::move(midsurface)));
-    quantities_.prepare(problem_->model.midsurface,
-                        problem_->model.cuts,
-                        problem_->model.exact_solution,
-                        problem_->constants);
+    quantities_ = quantity_parameters_.make(problem_->model.midsurface,
+                                            problem_->model.cuts,
+                                            problem_->model.exact_solution,
+                                            problem_->constants);
     adaptive_.prepare(*problem_, quantities_);
   }
 

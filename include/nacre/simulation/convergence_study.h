@@ -111,10 +111,11 @@ namespace Nacre
     std::vector<unsigned int> refinements_ = {0};
 
     ProblemParameters  problem_parameters_;
-    QuantitiesOfInterest quantities_;
+    QuantityParameters quantity_parameters_;
     AdaptiveRefinement adaptive_;
     /** Of the case prepared last. */
     std::optional<ShellProblem> problem_;
+    QuantitiesOfInterest        quantities_;
   };
 } // namespace Nacre
 
