@@ -75,19 +75,33 @@ namespace Tests
     }
   };
 
-  /**
-   * The section with the parameters of a text, no conditions and no loads; one
-   * object at a time.
-   */
-  struct Parameters : NoParameters
+  /** The text of a parameter file to all parameter objects that there are. */
+  inline void
+  read_text(const std::string &text)
   {
-    explicit Parameters(const std::string &text = "")
-    {
-      ParameterAcceptor::declare_all_parameters();
-      ParameterAcceptor::prm.parse_input_from_string(text);
-      ParameterAcceptor::parse_all_parameters();
-      section.prepare({});
-    }
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(text);
+    ParameterAcceptor::parse_all_parameters();
+  }
+
+  /** What the section @p AnyParameters of a text is on a mesh of regions. */
+  template <typename AnyParameters>
+  auto
+  section_of_text(const std::string &text, const MeshRegions &regions = {})
+  {
+    ParameterAcceptor::clear();
+    AnyParameters parameters;
+    read_text(text);
+    return parameters.section({}, {}, regions);
+  }
+
+  /** The section of a text, no conditions and no loads. */
+  struct Parameters
+  {
+    explicit Parameters(const std::string &text    = "",
+                        const MeshRegions &regions = {})
+      : section(section_of_text<LinearElasticSectionParameters>(text, regions))
+    {}
 
     LinearElasticSection section;
     BoundaryConditions   conditions;
@@ -95,30 +109,29 @@ namespace Tests
   };
 
   /** The model of the text of a parameter file; one object at a time. */
-  template <typename Section>
+  template <typename AnySectionParameters>
   struct TextModelOf : NoParameters
   {
     explicit TextModelOf(const std::string &text,
-                         const Constants   &constants = {})
-      : model(read(text, constants))
+                         const Constants   &constants = {},
+                         const MeshRegions &regions   = {})
+      : model(read(text, constants, regions))
     {}
-
-    Section section;
 
   private:
     ShellModel
-    read(const std::string &text, const Constants &constants)
+    read(const std::string &text,
+         const Constants   &constants,
+         const MeshRegions &regions)
     {
-      ParameterAcceptor::declare_all_parameters();
-      ParameterAcceptor::prm.parse_input_from_string(text);
-      ParameterAcceptor::parse_all_parameters();
-      section.prepare({});
-      ShellModel result{midsurface_.make({}), section};
+      read_text(text);
+      ShellModel result{midsurface_.make({}), section_.make({}, {}, regions)};
       result.supports = supports_.make(result.midsurface, constants);
       result.loads    = loads_.make(result.midsurface, constants);
       return result;
     }
 
+    AnySectionParameters        section_;
     MidsurfaceParameters        midsurface_;
     BoundaryConditionParameters supports_;
     LoadParameters              loads_;
@@ -127,7 +140,7 @@ namespace Tests
     ShellModel model;
   };
 
-  using TextModel = TextModelOf<LinearElasticSection>;
+  using TextModel = TextModelOf<LinearElasticSectionParameters>;
 
   inline std::string
   section_text(const double E, const double nu, const double h)

@@ -8,14 +8,15 @@
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/parameter_input.h>
-#include <nacre/mechanics/section_law.h>
+#include <nacre/mechanics/section_parameters.h>
 #include <nacre/simulation/convergence_study.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/parameter_acceptor.h>
 
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace OwnSection
 {
@@ -29,73 +30,34 @@ namespace OwnSection
    *   Q12 = nu12 Q22, Q33 = G12, nu21 = nu12 E2/E1;
    * H_n = h Q, H_m = h^3/12 Q.
    */
-  class OrthotropicSection
-    : public LinearSectionLaw
-    , public ParameterAcceptor
+  class OrthotropicSection : public LinearSectionLaw
   {
   public:
-    OrthotropicSection()
-      : ParameterAcceptor("/Section")
+    struct Values
     {
-      add_parameter("Young's modulus along",
-                    E_1_,
-                    "Young's modulus along the fibres. Units: force/length^2.");
-      add_parameter(
-        "Young's modulus across",
-        E_2_,
-        "Young's modulus across the fibres. Units: force/length^2.");
-      add_parameter("Poisson's ratio",
-                    nu_12_,
-                    "Contraction across the fibres by stress along them. "
-                    "Units: none.");
-      add_parameter("Shear modulus",
-                    G_12_,
-                    "Shear modulus of the surface. Units: force/length^2.");
-      add_parameter("Thickness", thickness_, "Thickness h. Units: length.");
-      add_parameter("Material direction",
-                    direction_text_,
-                    "Three components; the fibres follow its projection onto "
-                    "the surface. Units: none.");
-    }
+      double       E_1 = 1., E_2 = 1., nu_12 = 0.3, G_12 = 0.4;
+      double       thickness = 0.1;
+      Tensor<1, 3> direction = Tensor<1, 3>({1., 0., 0.});
+    };
 
-    void
-    prepare(const Constants &constants) override
+    explicit OrthotropicSection(const Values &values)
+      : values_(values)
     {
-      direction_ = evaluate_point(direction_text_,
-                                  "Section/Material direction",
-                                  constants);
-      AssertThrow(thickness_ > 0.,
+      AssertThrow(values_.thickness > 0.,
                   ExcMessage(
-                    "Section/Thickness: " + std::to_string(thickness_) +
+                    "Section/Thickness: " + std::to_string(values_.thickness) +
                     "; it must be positive."));
-      AssertThrow(E_1_ > 0. && E_2_ > 0. && G_12_ > 0. &&
-                    nu_12_ * nu_12_ * E_2_ < E_1_,
+      AssertThrow(values_.E_1 > 0. && values_.E_2 > 0. && values_.G_12 > 0. &&
+                    values_.nu_12 * values_.nu_12 * values_.E_2 < values_.E_1,
                   ExcMessage("Section: the moduli must be positive, and the "
                              "square of Poisson's ratio smaller than the ratio "
                              "of Young's moduli along and across."));
     }
 
-    void
-    set_thickness(const double thickness) override
-    {
-      thickness_ = thickness;
-    }
-
-    // For the expressions of the parameter file.
-    Constants
-    named_constants() const override
-    {
-      return {{"E1", E_1_},
-              {"E2", E_2_},
-              {"nu12", nu_12_},
-              {"G12", G_12_},
-              {"h", thickness_}};
-    }
-
     double
     thickness(const SectionPoint &) const override
     {
-      return thickness_;
+      return values_.thickness;
     }
 
     double
@@ -107,21 +69,23 @@ namespace OwnSection
     SectionStiffness
     stiffness(const SurfaceFrame<> &frame, const SectionPoint &) const override
     {
+      const double        h = values_.thickness;
       const VoigtMatrix<> T = strain_transformation(frame);
       const VoigtMatrix<> H = transpose(T) * material_stiffness() * T;
-      return {thickness_ * H, std::pow(thickness_, 3) / 12. * H};
+      return {h * H, h * h * h / 12. * H};
     }
 
   private:
     VoigtMatrix<>
     material_stiffness() const
     {
-      const double  factor = 1. / (1. - nu_12_ * nu_12_ * E_2_ / E_1_);
+      const double factor =
+        1. / (1. - values_.nu_12 * values_.nu_12 * values_.E_2 / values_.E_1);
       VoigtMatrix<> Q;
-      Q[0][0] = factor * E_1_;
-      Q[1][1] = factor * E_2_;
-      Q[0][1] = Q[1][0] = nu_12_ * Q[1][1];
-      Q[2][2]           = G_12_;
+      Q[0][0] = factor * values_.E_1;
+      Q[1][1] = factor * values_.E_2;
+      Q[0][1] = Q[1][0] = values_.nu_12 * Q[1][1];
+      Q[2][2]           = values_.G_12;
       return Q;
     }
 
@@ -134,8 +98,8 @@ namespace OwnSection
     strain_transformation(const SurfaceFrame<> &frame) const
     {
       const Tensor<1, 3> tangent =
-        direction_ - (direction_ * frame.t0) * frame.t0;
-      AssertThrow(tangent.norm() > 1e-8 * direction_.norm(),
+        values_.direction - (values_.direction * frame.t0) * frame.t0;
+      AssertThrow(tangent.norm() > 1e-8 * values_.direction.norm(),
                   ExcMessage("Section/Material direction: it is normal to the "
                              "surface somewhere, and must not be."));
       const Tensor<1, 3> along  = tangent / tangent.norm();
@@ -150,13 +114,67 @@ namespace OwnSection
          {2. * c_1 * s_1, 2. * c_2 * s_2, c_1 * s_2 + c_2 * s_1}});
     }
 
-    double       E_1_            = 1.;
-    double       E_2_            = 1.;
-    double       nu_12_          = 0.3;
-    double       G_12_           = 0.4;
-    double       thickness_      = 0.1;
-    std::string  direction_text_ = "1, 0, 0";
-    Tensor<1, 3> direction_;
+    const Values values_;
+  };
+
+  /** The section Section of a parameter file. */
+  class OrthotropicSectionParameters : public SectionParameters
+  {
+  public:
+    OrthotropicSectionParameters()
+      : SectionParameters("/Section")
+    {
+      add_parameter("Young's modulus along",
+                    values_.E_1,
+                    "Young's modulus along the fibres. Units: force/length^2.");
+      add_parameter(
+        "Young's modulus across",
+        values_.E_2,
+        "Young's modulus across the fibres. Units: force/length^2.");
+      add_parameter("Poisson's ratio",
+                    values_.nu_12,
+                    "Contraction across the fibres by stress along them. "
+                    "Units: none.");
+      add_parameter("Shear modulus",
+                    values_.G_12,
+                    "Shear modulus of the surface. Units: force/length^2.");
+      add_parameter("Thickness",
+                    values_.thickness,
+                    "Thickness h. Units: length.");
+      add_parameter("Material direction",
+                    direction_,
+                    "Three components; the fibres follow its projection onto "
+                    "the surface. Units: none.");
+    }
+
+    // For the expressions of the parameter file.
+    Constants
+    named_constants(const Constants & /*constants*/,
+                    const std::optional<double> &thickness) const override
+    {
+      return {{"E1", values_.E_1},
+              {"E2", values_.E_2},
+              {"nu12", values_.nu_12},
+              {"G12", values_.G_12},
+              {"h", thickness.value_or(values_.thickness)}};
+    }
+
+    // The same in all regions of a mesh.
+    std::shared_ptr<const SectionLaw>
+    make(const Constants             &constants,
+         const std::optional<double> &thickness,
+         const MeshRegions & /*regions*/) const override
+    {
+      OrthotropicSection::Values values = values_;
+      values.thickness                  = thickness.value_or(values_.thickness);
+      values.direction =
+        evaluate_point(direction_, "Section/Material direction", constants);
+      return std::make_shared<OrthotropicSection>(values);
+    }
+
+  private:
+    OrthotropicSection::Values values_;
+    std::string                direction_ = "1, 0, 0";
   };
 
   int
@@ -169,7 +187,7 @@ namespace OwnSection
         return 2;
       }
     ConvergenceStudy study(MPI_COMM_WORLD,
-                           std::make_unique<OrthotropicSection>());
+                           std::make_unique<OrthotropicSectionParameters>());
     read_parameters(argv[1], {argv + 2, argv + argc});
     study.prepare(argv[1]);
     Log log(MPI_COMM_WORLD);

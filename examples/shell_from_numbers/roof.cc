@@ -19,11 +19,10 @@ namespace Roof
   int
   run()
   {
-    const Section section(4.32e8, 0., 0.25);
-    Log           log(MPI_COMM_WORLD, true);
+    Log log(MPI_COMM_WORLD, true);
     for (unsigned int n_refinements = 1; n_refinements < 4; ++n_refinements)
       {
-        const ShellProblem   problem{make_model(section, 3), n_refinements};
+        const ShellProblem   problem{make_model(3), n_refinements};
         DiscreteShell        shell(MPI_COMM_WORLD, problem, nullptr, 1, log);
         const LinearSolution solution(shell, nullptr, 0., log);
         // The middle of the free edge moves most, downwards.

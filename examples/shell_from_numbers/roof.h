@@ -8,12 +8,11 @@
 // text but the names of edges.
 
 #include <nacre/mechanics/linear_elastic_section.h>
-#include <nacre/mechanics/section_law.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/problem/surfaces.h>
 
 #include <cmath>
-#include <vector>
+#include <memory>
 
 namespace Roof
 {
@@ -22,57 +21,9 @@ namespace Roof
   constexpr double R      = 25.;                      // radius
   constexpr double length = 50.;                      // along the axis
   constexpr double angle  = 40. * numbers::PI / 180.; // from crown to edge
-
-  /** Isotropic section without weight: E, nu, h. */
-  class Section : public LinearSectionLaw
-  {
-  public:
-    Section(const double E, const double nu, const double h)
-      : E_(E)
-      , nu_(nu)
-      , h_(h)
-    {}
-
-    // There is nothing to read.
-    void
-    prepare(const Constants &) override
-    {}
-
-    void
-    set_thickness(const double thickness) override
-    {
-      h_ = thickness;
-    }
-
-    Constants
-    named_constants() const override
-    {
-      return {{"E", E_}, {"nu", nu_}, {"h", h_}};
-    }
-
-    double
-    thickness(const SectionPoint &) const override
-    {
-      return h_;
-    }
-
-    double
-    density(const SectionPoint &) const override
-    {
-      return 0.;
-    }
-
-    SectionStiffness
-    stiffness(const SurfaceFrame<> &frame, const SectionPoint &) const override
-    {
-      const auto   H      = isotropic_stiffness(frame, nu_);
-      const double factor = E_ * h_ / (1. - nu_ * nu_);
-      return {factor * H, factor * h_ * h_ / 12. * H};
-    }
-
-  private:
-    double E_, nu_, h_;
-  };
+  constexpr double E      = 4.32e8;                   // Young's modulus
+  constexpr double nu     = 0.;                       // Poisson's ratio
+  constexpr double h      = 0.25;                     // thickness
 
   /**
    * n x n coarse cells of the quarter between the crown, the free edge, an end
@@ -95,11 +46,11 @@ namespace Roof
                      })));
   }
 
-  /** The @p section must live as long as the model. */
   inline ShellModel
-  make_model(const SectionLaw &section, const unsigned int degree)
+  make_model(const unsigned int degree)
   {
-    ShellModel model{make_midsurface(2), section};
+    ShellModel model{make_midsurface(2),
+                     std::make_shared<LinearElasticSection>(E, nu, h)};
     const auto edge = [&](const char *const name) {
       return model.midsurface.edge_ids(name, "the roof");
     };

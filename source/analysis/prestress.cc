@@ -167,7 +167,7 @@ namespace Nacre
             Vector scaled(u);
             scaled *= factor;
             StressStiffness(discretization_,
-                            model_.section,
+                            *model_.section,
                             model_.kinematics.membrane_strain)
               .add(scaled,
                    constraints_,
@@ -191,7 +191,7 @@ namespace Nacre
                                 Matrix        &matrix) const
   {
     StressStiffness(discretization_,
-                    model_.section,
+                    *model_.section,
                     model_.kinematics.membrane_strain)
       .add(
         [&](const ShellCellValues &values, const unsigned int q) {
@@ -272,7 +272,7 @@ namespace Nacre
                                     Matrix       &matrix) const
   {
     const double gradient = largest_gradient(u);
-    if (gradient == 0. && !model_.section.has_initial_strain())
+    if (gradient == 0. && !model_.section->has_initial_strain())
       return;
     ShellParts parts(model_);
     parts.kinematics.model = KinematicsModel::finite;
@@ -320,7 +320,7 @@ namespace Nacre
                               Matrix       &matrix) const
   {
     const double gradient = largest_gradient(velocity);
-    AssertThrow(gradient > 0. || model_.section.has_initial_strain(),
+    AssertThrow(gradient > 0. || model_.section->has_initial_strain(),
                 ExcMessage("Analysis/Start from: no load and no prescribed "
                            "displacement depends on t at that state, so that "
                            "nothing makes it buckle."));

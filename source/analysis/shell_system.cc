@@ -292,7 +292,7 @@ namespace Nacre
   ShellSystem::thickness() const
   {
     const auto cell = discretization_.triangulation().begin_active();
-    return Utilities::MPI::max(model_.section.thickness(
+    return Utilities::MPI::max(model_.section->thickness(
                                  {cell->center(), cell->material_id()}),
                                discretization_.communicator());
   }

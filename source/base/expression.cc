@@ -284,14 +284,9 @@ namespace Nacre
   } // namespace
 
 
-  Expression::Expression(Expression &&) noexcept = default;
-  Expression &
-  Expression::operator=(Expression &&) noexcept = default;
-  Expression::~Expression()                     = default;
-
-
-  Expression::Expression(const double value)
-    : value_(value)
+  Expression::Expression(const double value, const std::string &where)
+    : where_(where)
+    , value_(value)
   {}
 
 
@@ -310,8 +305,8 @@ namespace Nacre
     auto       all_constants  = constants;
     all_constants["pi"]       = numbers::PI;
 
-    function_ = std::make_unique<FunctionParser<3>>();
-    value_ = compile(*function_, text_, where_, all_constants, variable_names);
+    auto function = std::make_shared<FunctionParser<3>>();
+    value_ = compile(*function, text_, where_, all_constants, variable_names);
     check_one_value(text_, where_);
 
     const auto names = names_in(text_);
@@ -320,13 +315,11 @@ namespace Nacre
                              [&](const std::string &variable) {
                                return contains(names, variable);
                              });
-    if (constant_)
-      {
-        function_.reset();
-        AssertThrow(std::isfinite(value_),
-                    ExcMessage(not_finite(where_, text_, value_) +
-                               "; it must be finite."));
-      }
+    AssertThrow(!constant_ || std::isfinite(value_),
+                ExcMessage(not_finite(where_, text_, value_) +
+                           "; it must be finite."));
+    if (!constant_)
+      function_ = std::move(function);
   }
 
 

@@ -12,7 +12,7 @@
 namespace Nacre
 {
   ShellParts::ShellParts(const ShellModel &model)
-    : section(model.section)
+    : section(*model.section)
     , supports(model.supports)
     , loads(model.loads)
     , kinematics(model.kinematics)

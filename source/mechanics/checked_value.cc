@@ -16,4 +16,17 @@ namespace Nacre
                            "; it must be positive."));
     return value;
   }
+
+  double
+  positive(const Expression &value, const Point<3> &point)
+  {
+    return positive(value(point), value.where(), point);
+  }
+
+  void
+  check_positive(const Expression &value)
+  {
+    if (value.is_constant())
+      positive(value, Point<3>());
+  }
 } // namespace Nacre

@@ -7,24 +7,63 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <utility>
+
 namespace Nacre
 {
   namespace
   {
     const std::string plasticity = "Section/Plasticity/";
+
+    Quadrature<1>
+    simpson_rule(const unsigned int n_points)
+    {
+      AssertThrow(n_points > 1 && n_points % 4 == 1,
+                  ExcMessage(plasticity +
+                             "Points: " + std::to_string(n_points) +
+                             "; it must be 5, 9, 13, ..., so that Simpson's "
+                             "rule ends at the middle."));
+      return QIterated<1>(QSimpson<1>(), (n_points - 1) / 2);
+    }
+  } // namespace
+
+  ElastoplasticSection::ElastoplasticSection(LinearElasticSection elastic,
+                                             const Expression    &yield_stress,
+                                             const double         hardening,
+                                             const unsigned int   n_points)
+    : IntegratedSection<J2Plasticity>(std::move(elastic),
+                                      simpson_rule(n_points))
+    , yield_stress_(yield_stress)
+    , hardening_(hardening)
+  {
+    AssertThrow(hardening_ >= 0.,
+                ExcMessage(plasticity +
+                           "Hardening modulus: " + Text::number(hardening_) +
+                           "; it must not be negative."));
+    check_positive(yield_stress_);
   }
 
-  ElastoplasticSection::ElastoplasticSection(LinearElasticSection &values)
-    : IntegratedSection<J2Plasticity>(values)
-    , ParameterAcceptor("/Section/Plasticity")
+  J2Plasticity
+  ElastoplasticSection::material_at(const SectionPoint &point) const
+  {
+    return {elastic().youngs_modulus(point),
+            elastic().poissons_ratio(point),
+            positive(yield_stress_, point),
+            hardening_};
+  }
+
+  ElastoplasticSectionParameters::ElastoplasticSectionParameters(
+    const LinearElasticSectionParameters &elastic)
+    : SectionParameters("/Section/Plasticity")
+    , elastic_(elastic)
   {
     add_parameter("Yield stress",
-                  yield_stress_text_,
+                  yield_stress_,
                   "Stress at which 'Type = elastoplastic' begins to yield in "
                   "tension, a number or an expression of x, y, z. "
                   "Units: force/length^2.");
     add_parameter("Hardening modulus",
-                  hardening_text_,
+                  hardening_,
                   "How the yield stress grows with the accumulated plastic "
                   "strain; 0: perfectly plastic. In tension the tangent beyond "
                   "yielding is E H/(E + H). Units: force/length^2.");
@@ -36,38 +75,15 @@ namespace Nacre
                   Patterns::Integer(5, 201));
   }
 
-  void
-  ElastoplasticSection::prepare(const Constants &constants)
+  std::shared_ptr<const SectionLaw>
+  ElastoplasticSectionParameters::make(const Constants             &constants,
+                                       const std::optional<double> &thickness,
+                                       const MeshRegions &regions) const
   {
-    IntegratedSection<J2Plasticity>::prepare(constants);
-    yield_stress_ =
-      Expression(yield_stress_text_, plasticity + "Yield stress", constants);
-    const std::string modulus = plasticity + "Hardening modulus";
-    hardening_ = evaluate_number(hardening_text_, modulus, constants);
-    AssertThrow(hardening_ >= 0.,
-                ExcMessage(modulus + ": " + Text::number(hardening_) +
-                           "; it must not be negative."));
-    AssertThrow(n_points_ % 4 == 1,
-                ExcMessage(plasticity + "Points: " + std::to_string(n_points_) +
-                           "; it must be 5, 9, 13, ..., so that Simpson's rule "
-                           "ends at the middle."));
-    if (yield_stress_.is_constant())
-      yield_stress(Point<3>());
-    set_rule(QIterated<1>(QSimpson<1>(), (n_points_ - 1) / 2));
-  }
-
-  double
-  ElastoplasticSection::yield_stress(const SectionPoint &point) const
-  {
-    return positive(yield_stress_(point), plasticity + "Yield stress", point);
-  }
-
-  J2Plasticity
-  ElastoplasticSection::material_at(const SectionPoint &point) const
-  {
-    return {values().youngs_modulus(point),
-            values().poissons_ratio(point),
-            yield_stress(point),
-            hardening_};
+    return std::make_shared<ElastoplasticSection>(
+      elastic_.section(constants, thickness, regions),
+      Expression(yield_stress_, plasticity + "Yield stress", constants),
+      evaluate_number(hardening_, plasticity + "Hardening modulus", constants),
+      n_points_);
   }
 } // namespace Nacre

@@ -3,9 +3,11 @@
 
 #include <nacre/base/text.h>
 #include <nacre/mechanics/initial_strain.h>
-#include <nacre/mechanics/section_regions.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace Nacre
 {
@@ -27,198 +29,41 @@ namespace Nacre
                                                     "gradient"};
       return keys;
     }
+
+    bool
+    has_heat(const InitialStrains::Values &values)
+    {
+      return !values.at("temperature").is_zero() ||
+             !values.at("gradient").is_zero();
+    }
   } // namespace
 
-  InitialStrainParameters::InitialStrainParameters()
-    : ParameterAcceptor("/Section/Initial strain")
+  InitialStrains::InitialStrains(ByRegion<Values>        values,
+                                 const VectorExpression &direction,
+                                 const bool              keeps_angles,
+                                 const bool              has_plies)
+    : values_(std::move(values))
+    , direction_(direction)
+    , keeps_angles_(keeps_angles)
+    , has_plies_(has_plies)
   {
-    add_parameter("Strain",
-                  strain_text_,
-                  "Tensor components e11, e22, e12 of the mid-surface's strain "
-                  "without stress; as all values here, expressions of x, y, z "
-                  "and the time t, which 'Analysis/Load factor' multiplies. "
-                  "Units: none.");
-    add_parameter("Curvature",
-                  curvature_text_,
-                  "Components k11, k22, k12 of the change of curvature without "
-                  "stress: a fibre at the height z along the normal has the "
-                  "strain e + z k. Units: 1/length.");
-    add_parameter("Direction",
-                  direction_text_,
-                  "The axis 1 of both is its projection onto the surface: x, "
-                  "y, z or three expressions of x, y, z; the axis 2 is the "
-                  "normal times the axis 1. Units: none.");
-    add_parameter("Thermal expansion",
-                  expansion_text_,
-                  "Of an isotropic section; in laminates the materials have "
-                  "alpha1 and alpha2. Units: 1/temperature.");
-    add_parameter("Temperature",
-                  temperature_text_,
-                  "How much warmer the mid-surface is than without stress. "
-                  "Units: temperature.");
-    add_parameter("Temperature gradient",
-                  gradient_text_,
-                  "How the temperature grows along the normal. "
-                  "Units: temperature/length.");
-    add_parameter("Keeps angles",
-                  keeps_angles_,
-                  "Whether strains of the mid-surface bring the change of "
-                  "curvature along with which a curved shell grows uniformly "
-                  "and keeps its angles, so that it stays free of stress if it "
-                  "may move.");
-    add_parameter("Regions",
-                  regions_text_,
-                  "Other values in regions of the mesh, by the names of its "
-                  "groups of cells (mesh files only): 'web: temperature = 50; "
-                  "flange: e11 = 1e-3, k22 = x'. Keys: e11, e22, e12, k11, "
-                  "k22, k12, expansion, temperature, gradient. Units: as "
-                  "above.");
-  }
-
-  void
-  InitialStrainParameters::prepare(const Constants &constants,
-                                   const bool       has_plies)
-  {
-    has_plies_ = has_plies;
-    values_.clear();
-    const auto &keys = strain_keys();
-    const auto  read = [&](const std::string &text,
-                          const std::string &name,
-                          const unsigned int first,
-                          const unsigned int n) {
-      const std::string where = initial_strain + name;
-      const auto        items = Text::split(text, ',', where);
-      AssertThrow(items.size() == n,
-                  ExcMessage(where + ": '" + text + "' has " +
-                             std::to_string(items.size()) +
-                             " components; it needs " + std::to_string(n) +
-                             "."));
-      for (unsigned int k = 0; k < n; ++k)
-        values_.emplace(keys[first + k],
-                        Expression(items[k], where, constants, "x,y,z,t"));
-    };
-    read(strain_text_, "Strain", 0, 3);
-    read(curvature_text_, "Curvature", 3, 3);
-    values_.emplace("expansion",
-                    Expression(expansion_text_,
-                               initial_strain + "Thermal expansion",
-                               constants));
-    read(temperature_text_, "Temperature", 7, 1);
-    read(gradient_text_, "Temperature gradient", 8, 1);
-    direction_ =
-      read_direction(direction_text_, initial_strain + "Direction", constants);
-    prepare_regions(constants);
-    AssertThrow(!has_plies || values_.at("expansion").is_zero(),
-                ExcMessage(initial_strain +
-                           "Thermal expansion: a laminate takes alpha1 and "
-                           "alpha2 of 'Section/Laminate/Materials'."));
-    AssertThrow(!has_plies || !has_temperature() || !keeps_angles_,
-                ExcMessage(initial_strain +
-                           "Keeps angles: the plies of a laminate expand "
-                           "differently, and it is for other strains than "
-                           "those of a temperature."));
-    const auto is_null = [](const Values &values) {
+    const auto &all  = values_.all();
+    has_temperature_ = std::any_of(all.begin(), all.end(), has_heat);
+    is_zero_ = std::all_of(all.begin(), all.end(), [](const Values &values) {
       return std::all_of(values.begin(), values.end(), [](const auto &entry) {
         return entry.first == "expansion" || entry.second.is_zero();
       });
-    };
-    is_zero_ =
-      is_null(values_) &&
-      std::all_of(regions_.begin(), regions_.end(), [&](const auto &region) {
-        return is_null(region.second);
-      });
-  }
-
-  void
-  InitialStrainParameters::prepare_regions(const Constants &constants)
-  {
-    const std::string where = initial_strain + "Regions";
-    const auto       &keys  = strain_keys();
-    regions_.clear();
-    region_of_id_.clear();
-    for (const auto &entry :
-         Text::entries(regions_text_, where, "region", "web: temperature = 50"))
-      for (const auto &quoted : entry.names)
-        {
-          const std::string name = Text::unquoted(quoted);
-          AssertThrow(regions_.count(name) == 0,
-                      ExcMessage(where + ", '" + name + "' stands twice."));
-          Values &values = regions_[name];
-          for (const auto &item : Text::split(entry.value, ',', where))
-            {
-              const auto [key, text] = Text::key_and_value(item);
-              AssertThrow(
-                std::find(keys.begin(), keys.end(), key) != keys.end(),
-                ExcMessage(Text::unknown_name(where, "value", key, keys)));
-              AssertThrow(!has_plies_ || key != "expansion",
-                          ExcMessage(
-                            where + ", expansion: a laminate takes alpha1 and "
-                                    "alpha2 of 'Section/Laminate/Materials'."));
-              AssertThrow(values.count(key) == 0 && !text.empty(),
-                          ExcMessage(where + ", '" + name + "', " + key +
-                                     ": it needs one value."));
-              values.emplace(key,
-                             Expression(text,
-                                        where + ", '" + name + "', " + key,
-                                        constants,
-                                        "x,y,z,t"));
-            }
-        }
-  }
-
-  void
-  InitialStrainParameters::set_regions(const MeshRegions &mesh)
-  {
-    std::vector<std::string>    names;
-    std::vector<const Values *> values;
-    for (const auto &[name, region] : regions_)
-      {
-        names.push_back(name);
-        values.push_back(&region);
-      }
-    region_of_id_.clear();
-    for (const unsigned int k :
-         assign_regions(mesh, names, initial_strain + "Regions"))
-      region_of_id_.push_back(k == numbers::invalid_unsigned_int ? nullptr :
-                                                                   values[k]);
-  }
-
-  bool
-  InitialStrainParameters::has_temperature() const
-  {
-    return !values_.at("temperature").is_zero() ||
-           !values_.at("gradient").is_zero() ||
-           std::any_of(regions_.begin(),
-                       regions_.end(),
-                       [](const auto &region) {
-                         return region.second.count("temperature") +
-                                  region.second.count("gradient") >
-                                0;
-                       });
-  }
-
-  double
-  InitialStrainParameters::value(const std::string  &key,
-                                 const SectionPoint &point,
-                                 const Instant      &instant) const
-  {
-    if (point.region() < region_of_id_.size())
-      if (const Values *const own = region_of_id_[point.region()])
-        {
-          const auto found = own->find(key);
-          if (found != own->end())
-            return found->second(point, instant);
-        }
-    return values_.at(key)(point, instant);
+    });
   }
 
   InitialStrain
-  InitialStrainParameters::at(const SurfaceFrame<> &frame,
-                              const SectionPoint   &point,
-                              const Instant        &instant) const
+  InitialStrains::at(const SurfaceFrame<> &frame,
+                     const SectionPoint   &point,
+                     const Instant        &instant) const
   {
-    const auto get = [&](const char *const key) {
-      return value(key, point, instant);
+    const Values &values = values_.at(point);
+    const auto    get    = [&](const char *const key) {
+      return values.at(key)(point, instant);
     };
     InitialStrain result;
     result.temperature = {get("temperature"), get("gradient")};
@@ -226,7 +71,7 @@ namespace Nacre
     if (!has_plies_)
       {
         // A property: the factor of the instant is in the temperature.
-        const double alpha = value("expansion", point, {instant.time, 1.});
+        const double alpha = values.at("expansion")(point, instant.time);
         mean               = alpha * result.temperature.mean;
         gradient           = alpha * result.temperature.gradient;
       }
@@ -277,5 +122,146 @@ namespace Nacre
           for (unsigned int d = 0; d < 2; ++d)
             mixed[i][j] += e[i][c] * g[c][d] * b[d][j];
     return Voigt<>({mixed[0][0], mixed[1][1], mixed[0][1] + mixed[1][0]});
+  }
+
+  InitialStrainParameters::InitialStrainParameters()
+    : ParameterAcceptor("/Section/Initial strain")
+  {
+    add_parameter("Strain",
+                  strain_,
+                  "Tensor components e11, e22, e12 of the mid-surface's strain "
+                  "without stress; as all values here, expressions of x, y, z "
+                  "and the time t, which 'Analysis/Load factor' multiplies. "
+                  "Units: none.");
+    add_parameter("Curvature",
+                  curvature_,
+                  "Components k11, k22, k12 of the change of curvature without "
+                  "stress: a fibre at the height z along the normal has the "
+                  "strain e + z k. Units: 1/length.");
+    add_parameter("Direction",
+                  direction_,
+                  "The axis 1 of both is its projection onto the surface: x, "
+                  "y, z or three expressions of x, y, z; the axis 2 is the "
+                  "normal times the axis 1. Units: none.");
+    add_parameter("Thermal expansion",
+                  expansion_,
+                  "Of an isotropic section; in laminates the materials have "
+                  "alpha1 and alpha2. Units: 1/temperature.");
+    add_parameter("Temperature",
+                  temperature_,
+                  "How much warmer the mid-surface is than without stress. "
+                  "Units: temperature.");
+    add_parameter("Temperature gradient",
+                  gradient_,
+                  "How the temperature grows along the normal. "
+                  "Units: temperature/length.");
+    add_parameter("Keeps angles",
+                  keeps_angles_,
+                  "Whether strains of the mid-surface bring the change of "
+                  "curvature along with which a curved shell grows uniformly "
+                  "and keeps its angles, so that it stays free of stress if it "
+                  "may move.");
+    add_parameter("Regions",
+                  regions_,
+                  "Other values in regions of the mesh, by the names of its "
+                  "groups of cells (mesh files only): 'web: temperature = 50; "
+                  "flange: e11 = 1e-3, k22 = x'. Keys: e11, e22, e12, k11, "
+                  "k22, k12, expansion, temperature, gradient. Units: as "
+                  "above.");
+  }
+
+  InitialStrainParameters::Values
+  InitialStrainParameters::values(const Constants &constants) const
+  {
+    const auto &keys = strain_keys();
+    Values      result;
+    const auto  read = [&](const std::string &text,
+                          const std::string &name,
+                          const unsigned int first,
+                          const unsigned int n) {
+      const std::string where = initial_strain + name;
+      const auto        items = Text::split(text, ',', where);
+      AssertThrow(items.size() == n,
+                  ExcMessage(where + ": '" + text + "' has " +
+                             std::to_string(items.size()) +
+                             " components; it needs " + std::to_string(n) +
+                             "."));
+      for (unsigned int k = 0; k < n; ++k)
+        result.emplace(keys[first + k],
+                       Expression(items[k], where, constants, "x,y,z,t"));
+    };
+    read(strain_, "Strain", 0, 3);
+    read(curvature_, "Curvature", 3, 3);
+    result.emplace("expansion",
+                   Expression(expansion_,
+                              initial_strain + "Thermal expansion",
+                              constants));
+    read(temperature_, "Temperature", 7, 1);
+    read(gradient_, "Temperature gradient", 8, 1);
+    return result;
+  }
+
+  std::map<std::string, InitialStrainParameters::Values>
+  InitialStrainParameters::values_of_regions(const Values    &everywhere,
+                                             const Constants &constants,
+                                             const bool       has_plies) const
+  {
+    const std::string             where = initial_strain + "Regions";
+    const auto                   &keys  = strain_keys();
+    std::map<std::string, Values> result;
+    for (const auto &entry :
+         Text::entries(regions_, where, "region", "web: temperature = 50"))
+      for (const auto &quoted : entry.names)
+        {
+          const std::string name     = Text::unquoted(quoted);
+          const auto [place, is_new] = result.try_emplace(name, everywhere);
+          std::set<std::string> own_keys;
+          AssertThrow(is_new,
+                      ExcMessage(where + ", '" + name + "' stands twice."));
+          for (const auto &item : Text::split(entry.value, ',', where))
+            {
+              const auto [key, text] = Text::key_and_value(item);
+              const std::string what = where + ", '" + name + "', " + key;
+              AssertThrow(
+                std::find(keys.begin(), keys.end(), key) != keys.end(),
+                ExcMessage(Text::unknown_name(where, "value", key, keys)));
+              AssertThrow(!has_plies || key != "expansion",
+                          ExcMessage(
+                            where + ", expansion: a laminate takes alpha1 and "
+                                    "alpha2 of 'Section/Laminate/Materials'."));
+              AssertThrow(own_keys.insert(key).second && !text.empty(),
+                          ExcMessage(what + ": it needs one value."));
+              place->second[key] = Expression(text, what, constants, "x,y,z,t");
+            }
+        }
+    return result;
+  }
+
+  InitialStrains
+  InitialStrainParameters::make(const Constants   &constants,
+                                const bool         has_plies,
+                                const MeshRegions &regions) const
+  {
+    const Values everywhere = values(constants);
+    const auto   direction =
+      read_direction(direction_, initial_strain + "Direction", constants);
+    InitialStrains result(
+      ByRegion<Values>(everywhere,
+                       values_of_regions(everywhere, constants, has_plies),
+                       regions,
+                       initial_strain + "Regions"),
+      direction,
+      keeps_angles_,
+      has_plies);
+    AssertThrow(!has_plies || everywhere.at("expansion").is_zero(),
+                ExcMessage(initial_strain +
+                           "Thermal expansion: a laminate takes alpha1 and "
+                           "alpha2 of 'Section/Laminate/Materials'."));
+    AssertThrow(!has_plies || !result.has_temperature() || !keeps_angles_,
+                ExcMessage(initial_strain +
+                           "Keeps angles: the plies of a laminate expand "
+                           "differently, and it is for other strains than "
+                           "those of a temperature."));
+    return result;
   }
 } // namespace Nacre

@@ -4,10 +4,10 @@
 #include <nacre/base/text.h>
 #include <nacre/mechanics/checked_value.h>
 #include <nacre/mechanics/linear_elastic_section.h>
-#include <nacre/mechanics/section_regions.h>
 
 #include <algorithm>
-#include <sstream>
+#include <utility>
+#include <vector>
 
 namespace Nacre
 {
@@ -24,189 +24,108 @@ namespace Nacre
                              "0.5."));
       return nu;
     }
+
+    double
+    density_at(const Expression &density, const SectionPoint &point)
+    {
+      const double value = density(point);
+      AssertThrow(value >= 0.,
+                  ExcMessage(density.where() + ": " + Text::number(value) +
+                             "; it must not be negative."));
+      return value;
+    }
+
+    void
+    check(const IsotropicValues &values)
+    {
+      checked_nu(values.poissons_ratio, "Poisson's ratio");
+      check_positive(values.youngs_modulus);
+      check_positive(values.thickness);
+      if (values.density.is_constant())
+        density_at(values.density, Point<3>());
+    }
+
+    /** The numbers among the @p values. */
+    Constants
+    numbers_of(const IsotropicValues &values)
+    {
+      Constants constants{{"nu", values.poissons_ratio}};
+      if (values.youngs_modulus.is_constant())
+        constants["E"] = values.youngs_modulus(Point<3>());
+      if (values.thickness.is_constant())
+        constants["h"] = values.thickness(Point<3>());
+      return constants;
+    }
+
+    /** Replace one of a region's @p values by that of "key = value". */
+    void
+    replace_value(IsotropicValues   &values,
+                  const std::string &item,
+                  const std::string &where,
+                  const Constants   &known)
+    {
+      const std::map<std::string, Expression *> expressions = {
+        {"h", &values.thickness},
+        {"E", &values.youngs_modulus},
+        {"density", &values.density}};
+
+      const auto [key, value] = Text::key_and_value(item);
+      const std::string what  = where + ", " + key;
+      if (key == "nu")
+        {
+          values.poissons_ratio =
+            checked_nu(evaluate_number(value, what, known), what);
+          return;
+        }
+      const auto found = expressions.find(key);
+      AssertThrow(found != expressions.end(),
+                  ExcMessage(Text::unknown_name(where,
+                                                "value",
+                                                key,
+                                                {"h", "E", "density", "nu"})));
+      *found->second = Expression(value, what, known);
+    }
   } // namespace
 
-  LinearElasticSection::LinearElasticSection()
-    : ParameterAcceptor("/Section")
-  {
-    add_parameter("Young's modulus",
-                  youngs_modulus_text_,
-                  "Young's modulus E, a number or an expression of x, y, z. "
-                  "Units: force/length^2.");
-    add_parameter("Poisson's ratio",
-                  nu_text_,
-                  "Poisson's ratio nu, larger than -1 and smaller than 0.5. "
-                  "Units: none.");
-    add_parameter("Thickness",
-                  thickness_text_,
-                  "Thickness h, a number or an expression of x, y, z. "
-                  "Units: length.");
-    add_parameter("Density",
-                  density_text_,
-                  "Mass per volume, a number or an expression of x, y, z. "
-                  "Units: mass/length^3.");
-    add_parameter("Regions",
-                  regions_text_,
-                  "Other values in regions of the mesh, by the names of its "
-                  "groups of cells (mesh files only): "
-                  "'web: h = 0.2, E = 2*E; flange: h = 0.3'. Keys: h, E, "
-                  "density (expressions of x, y, z), nu; E, nu and h on the "
-                  "right are those of the section. Units: as above.");
-  }
+  LinearElasticSection::LinearElasticSection(const double E,
+                                             const double nu,
+                                             const double h,
+                                             const double density)
+    : LinearElasticSection(IsotropicValues{{E, "Young's modulus"},
+                                           nu,
+                                           {h, "Thickness"},
+                                           {density, "Density"}})
+  {}
 
-  void
-  LinearElasticSection::prepare(const Constants &constants)
+  LinearElasticSection::LinearElasticSection(ByRegion<IsotropicValues> values)
+    : values_(std::move(values))
   {
-    const std::string nu_parameter = "Section/Poisson's ratio";
-    nu_ = checked_nu(evaluate_number(nu_text_, nu_parameter, constants),
-                     nu_parameter);
-    region_of_id_.clear();
-    youngs_modulus_ =
-      Expression(youngs_modulus_text_, "Section/Young's modulus", constants);
-    thickness_ = Expression(thickness_text_, "Section/Thickness", constants);
-    density_   = Expression(density_text_, "Section/Density", constants);
-    // Constants are checked at once, expressions at the points of use.
-    if (youngs_modulus_.is_constant())
-      youngs_modulus(Point<3>());
-    if (thickness_.is_constant())
-      thickness(Point<3>());
-    if (density_.is_constant())
-      density(Point<3>());
-    prepare_regions(constants);
-  }
-
-  void
-  LinearElasticSection::prepare_regions(const Constants &constants)
-  {
-    regions_.clear();
-    Constants known = constants;
-    for (const auto &[name, value] : named_constants())
-      known[name] = value;
-    for (const auto &entry : Text::entries(regions_text_,
-                                           regions_parameter,
-                                           "region",
-                                           "name: h = 0.1"))
-      for (const auto &quoted : entry.names)
-        {
-          const std::string name = Text::unquoted(quoted);
-          const std::string where =
-            regions_parameter + (", region '" + name) + "'";
-          const auto [place, is_new] = regions_.try_emplace(name);
-          AssertThrow(is_new, ExcMessage(where + " stands twice."));
-          for (const auto &item : Text::split(entry.value, ',', where))
-            add_region_item(place->second, item, where, known);
-        }
-  }
-
-  void
-  LinearElasticSection::add_region_item(Region            &region,
-                                        const std::string &item,
-                                        const std::string &where,
-                                        const Constants   &known) const
-  {
-    const std::vector<std::string> keys = {"h", "E", "density", "nu"};
-
-    const auto [key, value] = Text::key_and_value(item);
-    AssertThrow(std::find(keys.begin(), keys.end(), key) != keys.end(),
-                ExcMessage(Text::unknown_name(where, "value", key, keys)));
-    const std::string what = where + ", " + key;
-    if (key == "nu")
-      region.nu = checked_nu(evaluate_number(value, what, known), what);
-    else
-      {
-        Expression expression(value, what, known);
-        if (key != "density" && expression.is_constant())
-          positive(expression(Point<3>()), what, Point<3>());
-        region.values[key] = std::move(expression);
-      }
-  }
-
-  void
-  LinearElasticSection::set_regions(const MeshRegions &mesh)
-  {
-    std::vector<std::string>    names;
-    std::vector<const Region *> values;
-    for (const auto &[name, region] : regions_)
-      {
-        names.push_back(name);
-        values.push_back(&region);
-      }
-    region_of_id_.clear();
-    for (const unsigned int k : assign_regions(mesh, names, regions_parameter))
-      region_of_id_.push_back(k == numbers::invalid_unsigned_int ? nullptr :
-                                                                   values[k]);
-  }
-
-  const Expression *
-  LinearElasticSection::own_value(const SectionPoint &point,
-                                  const std::string  &key) const
-  {
-    if (point.region() >= region_of_id_.size() ||
-        region_of_id_[point.region()] == nullptr)
-      return nullptr;
-    const auto &values = region_of_id_[point.region()]->values;
-    const auto  found  = values.find(key);
-    return found == values.end() ? nullptr : &found->second;
-  }
-
-  void
-  LinearElasticSection::set_thickness(const double thickness)
-  {
-    thickness_of_study_ = thickness;
-  }
-
-  Constants
-  LinearElasticSection::named_constants() const
-  {
-    Constants constants;
-    constants["nu"] = nu_;
-    if (youngs_modulus_.is_constant())
-      constants["E"] = youngs_modulus_(Point<3>());
-    if (thickness_of_study_)
-      constants["h"] = *thickness_of_study_;
-    else if (thickness_.is_constant())
-      constants["h"] = thickness_(Point<3>());
-    return constants;
+    for (const IsotropicValues &some : values_.all())
+      check(some);
   }
 
   double
   LinearElasticSection::youngs_modulus(const SectionPoint &point) const
   {
-    if (const Expression *const own = own_value(point, "E"))
-      return positive((*own)(point), "Section/Regions, E", point);
-    return positive(youngs_modulus_(point), "Section/Young's modulus", point);
+    return positive(values_.at(point).youngs_modulus, point);
   }
 
   double
   LinearElasticSection::poissons_ratio(const SectionPoint &point) const
   {
-    if (point.region() < region_of_id_.size() &&
-        region_of_id_[point.region()] != nullptr)
-      return region_of_id_[point.region()]->nu.value_or(nu_);
-    return nu_;
+    return values_.at(point).poissons_ratio;
   }
 
   double
   LinearElasticSection::thickness(const SectionPoint &point) const
   {
-    if (const Expression *const own = own_value(point, "h"))
-      return positive((*own)(point), "Section/Regions, h", point);
-    return thickness_of_study_ ?
-             *thickness_of_study_ :
-             positive(thickness_(point), "Section/Thickness", point);
+    return positive(values_.at(point).thickness, point);
   }
 
   double
   LinearElasticSection::density(const SectionPoint &point) const
   {
-    const Expression *const own   = own_value(point, "density");
-    const double            value = (own == nullptr ? density_ : *own)(point);
-    AssertThrow(value >= 0.,
-                ExcMessage(
-                  std::string(own == nullptr ? "Section/Density" :
-                                               "Section/Regions, density") +
-                  ": " + Text::number(value) + "; it must not be negative."));
-    return value;
+    return density_at(values_.at(point).density, point);
   }
 
   SectionStiffness
@@ -221,5 +140,89 @@ namespace Nacre
     const double membrane = E * h / (1. - nu * nu);
     const double bending  = membrane * h * h / 12.;
     return {membrane * H, bending * H};
+  }
+
+  LinearElasticSectionParameters::LinearElasticSectionParameters()
+    : SectionParameters("/Section")
+  {
+    add_parameter("Young's modulus",
+                  youngs_modulus_,
+                  "Young's modulus E, a number or an expression of x, y, z. "
+                  "Units: force/length^2.");
+    add_parameter("Poisson's ratio",
+                  nu_,
+                  "Poisson's ratio nu, larger than -1 and smaller than 0.5. "
+                  "Units: none.");
+    add_parameter("Thickness",
+                  thickness_,
+                  "Thickness h, a number or an expression of x, y, z. "
+                  "Units: length.");
+    add_parameter("Density",
+                  density_,
+                  "Mass per volume, a number or an expression of x, y, z. "
+                  "Units: mass/length^3.");
+    add_parameter("Regions",
+                  regions_text_,
+                  "Other values in regions of the mesh, by the names of its "
+                  "groups of cells (mesh files only): "
+                  "'web: h = 0.2, E = 2*E; flange: h = 0.3'. Keys: h, E, "
+                  "density (expressions of x, y, z), nu; E, nu and h on the "
+                  "right are those of the section. Units: as above.");
+  }
+
+  IsotropicValues
+  LinearElasticSectionParameters::values(
+    const Constants             &constants,
+    const std::optional<double> &thickness) const
+  {
+    const std::string nu_parameter = "Section/Poisson's ratio";
+    IsotropicValues   result;
+    result.poissons_ratio =
+      checked_nu(evaluate_number(nu_, nu_parameter, constants), nu_parameter);
+    result.youngs_modulus =
+      Expression(youngs_modulus_, "Section/Young's modulus", constants);
+    result.thickness = Expression(thickness_, "Section/Thickness", constants);
+    result.density   = Expression(density_, "Section/Density", constants);
+    check(result);
+    if (thickness)
+      result.thickness = {*thickness, "Study/Thicknesses"};
+    return result;
+  }
+
+  Constants
+  LinearElasticSectionParameters::named_constants(
+    const Constants             &constants,
+    const std::optional<double> &thickness) const
+  {
+    return numbers_of(values(constants, thickness));
+  }
+
+  LinearElasticSection
+  LinearElasticSectionParameters::section(
+    const Constants             &constants,
+    const std::optional<double> &thickness,
+    const MeshRegions           &regions) const
+  {
+    const IsotropicValues everywhere = values(constants, thickness);
+    Constants             known      = constants;
+    for (const auto &[name, value] : numbers_of(everywhere))
+      known[name] = value;
+    std::map<std::string, IsotropicValues> named;
+    for (const auto &entry : Text::entries(regions_text_,
+                                           regions_parameter,
+                                           "region",
+                                           "name: h = 0.1"))
+      for (const auto &quoted : entry.names)
+        {
+          const std::string name = Text::unquoted(quoted);
+          const std::string where =
+            regions_parameter + (", region '" + name) + "'";
+          const auto [place, is_new] = named.try_emplace(name, everywhere);
+          AssertThrow(is_new, ExcMessage(where + " stands twice."));
+          for (const auto &item : Text::split(entry.value, ',', where))
+            replace_value(place->second, item, where, known);
+        }
+    return LinearElasticSection(
+      ByRegion<IsotropicValues>(everywhere, named, regions, regions_parameter));
   }
 } // namespace Nacre

@@ -129,7 +129,7 @@ namespace Nacre
     {
       const auto    &frame   = points.frame(q);
       const Loads   &loads   = shell.model.loads;
-      const auto    &section = shell.model.section;
+      const auto    &section = *shell.model.section;
       const Instant &instant = shell.actions.loads;
       const double   mass    = section.density(x) * section.thickness(x);
       Vector3        load = loads.force_per_area(x, frame.t0, mass, instant) -
@@ -168,7 +168,7 @@ namespace Nacre
                 ExcMessage(where_ + "energy release rates and stress "
                                     "intensity factors are those of statics "
                                     "and of motions; modes have no size."));
-    AssertThrow(shell_.model.section.is_linear(),
+    AssertThrow(shell_.model.section->is_linear(),
                 ExcMessage(where_ +
                            "the law of the section isn't linear; these "
                            "quantities are for linear ones only."));
@@ -411,7 +411,7 @@ namespace Nacre
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
             const auto X = williams_derivatives(fields[i], tip_, side, surface);
-            const double held = held_work(shell_.model.section,
+            const double held = held_work(*shell_.model.section,
                                           tip_,
                                           surface,
                                           frame,
@@ -572,7 +572,7 @@ namespace Nacre
   {
     if (shell_.model.kinematics.model != KinematicsModel::linear)
       return {};
-    return elastic_plate(shell_.model.section,
+    return elastic_plate(*shell_.model.section,
                          tip_.position,
                          tip_.axes[0],
                          tip_.axes[1]);

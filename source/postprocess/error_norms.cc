@@ -170,10 +170,10 @@ namespace Nacre
         squares[0] += values_.JxW(q) * error.value.norm_square();
         squares[1] += values_.JxW(q) * gradient_square;
         const auto error_response =
-          shell_.model.section.response(membrane,
-                                        bending,
-                                        frame,
-                                        values_.point(q));
+          shell_.model.section->response(membrane,
+                                         bending,
+                                         frame,
+                                         values_.point(q));
         squares[2] += values_.JxW(q) * 2. * error_response.energy;
       }
 

@@ -232,16 +232,17 @@ namespace Nacre
     return Utilities::MPI::sum(value, discretization.communicator());
   }
 
-  Angle
-  evaluate_angle(const Discretization                &discretization,
-                 const TrilinosWrappers::MPI::Vector &displacement,
-                 const PointQuantity                 &quantity)
+  TrilinosWrappers::MPI::Vector
+  point_functional(const Discretization  &discretization,
+                   const Point<spacedim> &point,
+                   const std::string     &where,
+                   const std::function<PointWeights(
+                     const ShellCellValues &,
+                     const std::vector<types::global_dof_index> &)> &weights)
   {
-    using Vector3    = Tensor<1, spacedim>;
-    const auto place = discretization.locate(quantity.point, quantity.where);
-    Angle      angle;
-    angle.gradient.reinit(discretization.locally_owned_dofs(),
-                          discretization.communicator());
+    const auto                    place = discretization.locate(point, where);
+    TrilinosWrappers::MPI::Vector g(discretization.locally_owned_dofs(),
+                                    discretization.communicator());
     run_on_all_ranks(discretization.communicator(), [&]() {
       if (!place.is_mine)
         return;
@@ -252,6 +253,38 @@ namespace Nacre
       values.reinit(place.part);
       std::vector<types::global_dof_index> dofs;
       discretization.get_dof_indices(place.part, dofs);
+      const PointWeights here   = weights(values, dofs);
+      const auto        &shapes = values.shapes();
+      for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
+        {
+          auto part = shapes.value(0, a) * here.value;
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            part += shapes.gradient(0, a)[alpha] * here.derivatives[alpha];
+          for (unsigned int c = 0; c < spacedim; ++c)
+            g(dofs[values.dof(a, c)]) += part[c];
+        }
+      for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
+        {
+          const auto &psi  = values.tip_function(0, k);
+          double      part = here.value * psi.value;
+          for (unsigned int alpha = 0; alpha < dim; ++alpha)
+            part += psi.first[alpha] * here.derivatives[alpha];
+          g(dofs[values.tip_dof(k)]) += part;
+        }
+    });
+    g.compress(VectorOperation::add);
+    return g;
+  }
+
+  Angle
+  evaluate_angle(const Discretization                &discretization,
+                 const TrilinosWrappers::MPI::Vector &displacement,
+                 const PointQuantity                 &quantity)
+  {
+    using Vector3 = Tensor<1, spacedim>;
+    Angle      angle;
+    const auto weights = [&](const ShellCellValues                      &values,
+                             const std::vector<types::global_dof_index> &dofs) {
       const auto &shapes = values.shapes();
       auto        phi    = values.frame(0).a_cov;
       for (unsigned int alpha = 0; alpha < dim; ++alpha)
@@ -270,27 +303,20 @@ namespace Nacre
       const Vector3  p  = t0 - (d * t0) * d;
       AssertThrow(s.norm() > 1e-6,
                   ExcMessage(quantity.where +
-                             ": the normal doesn't turn about itself; choose a "
-                             "direction along the surface."));
+                             ": the normal doesn't turn about itself; "
+                             "choose a direction along the surface."));
       const Vector3 n = cross_product_3d(phi[0], phi[1]);
       const double  x = n * p, y = n * s;
       angle.value = std::atan2(y, x);
       // d(angle) = w . dn
-      const Vector3                  w    = (x * s - y * p) / (x * x + y * y);
-      const std::array<Vector3, dim> dphi = {
+      const Vector3 w = (x * s - y * p) / (x * x + y * y);
+      PointWeights  result;
+      result.derivatives = {
         {cross_product_3d(phi[1], w), cross_product_3d(w, phi[0])}};
-      for (unsigned int alpha = 0; alpha < dim; ++alpha)
-        {
-          for (unsigned int a = 0; a < shapes.n_nodes(); ++a)
-            for (unsigned int c = 0; c < spacedim; ++c)
-              angle.gradient(dofs[values.dof(a, c)]) +=
-                shapes.gradient(0, a)[alpha] * dphi[alpha][c];
-          for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
-            angle.gradient(dofs[values.tip_dof(k)]) +=
-              values.tip_function(0, k).first[alpha] * dphi[alpha];
-        }
-    });
-    angle.gradient.compress(VectorOperation::add);
+      return result;
+    };
+    angle.gradient =
+      point_functional(discretization, quantity.point, quantity.where, weights);
     angle.value =
       Utilities::MPI::sum(angle.value, discretization.communicator());
     return angle;

@@ -108,7 +108,7 @@ namespace Nacre
     if (r.layers.empty())
       {
         const auto   point = strains_.values().point(q);
-        const double h     = state_.model.section.thickness(point);
+        const double h     = state_.model.section->thickness(point);
         r.layers.resize(1);
         r.layers[0].height = {{-0.5 * h, 0.5 * h}};
       }

@@ -31,27 +31,16 @@ namespace Nacre
                             const std::optional<Vector3> &direction,
                             const std::string            &where)
     {
-      const auto                    place = discretization.locate(point, where);
-      TrilinosWrappers::MPI::Vector g(discretization.locally_owned_dofs(),
-                                      discretization.communicator());
-      if (place.is_mine)
-        {
-          ShellCellValues values(discretization,
-                                 Quadrature<dim>(place.unit),
-                                 false,
-                                 ShellCellValues::Points::given);
-          values.reinit(place.part);
-          std::vector<types::global_dof_index> dofs;
-          discretization.get_dof_indices(place.part, dofs);
-          const Vector3 d = direction ? *direction : values.frame(0).t0;
-          for (unsigned int a = 0; a < values.shapes().n_nodes(); ++a)
-            for (unsigned int c = 0; c < spacedim; ++c)
-              g(dofs[values.dof(a, c)]) += d[c] * values.shapes().value(0, a);
-          for (unsigned int k = 0; k < values.n_tip_functions(); ++k)
-            g(dofs[values.tip_dof(k)]) += d * values.tip_function(0, k).value;
-        }
-      g.compress(VectorOperation::add);
-      return g;
+      return point_functional(discretization,
+                              point,
+                              where,
+                              [&](const ShellCellValues &values,
+                                  const auto & /*dofs*/) {
+                                PointWeights weights;
+                                weights.value =
+                                  direction ? *direction : values.frame(0).t0;
+                                return weights;
+                              });
     }
 
     double
@@ -452,7 +441,7 @@ namespace Nacre
     }
   } // namespace
 
-  QuantitiesOfInterest::QuantitiesOfInterest()
+  QuantityParameters::QuantityParameters()
     : ParameterAcceptor("/Quantities")
   {
     add_parameter(
@@ -515,19 +504,19 @@ namespace Nacre
     return names;
   }
 
-  void
-  QuantitiesOfInterest::prepare(const Midsurface    &midsurface,
-                                const Cuts          &cuts,
-                                const ExactSolution &exact_solution,
-                                const Constants     &constants)
+  QuantitiesOfInterest
+  QuantityParameters::make(const Midsurface    &midsurface,
+                           const Cuts          &cuts,
+                           const ExactSolution &exact_solution,
+                           const Constants     &constants) const
   {
-    const std::string parameter = "Quantities/Quantities";
-    quantities_.clear();
-    balance_origin_.reset();
+    const std::string       parameter = "Quantities/Quantities";
+    std::optional<Point<3>> balance_origin;
     if (!balance_text_.empty())
-      balance_origin_ =
+      balance_origin =
         evaluate_point(balance_text_, "Quantities/Balance about", constants);
-    std::set<std::string> names;
+    std::vector<QuantitiesOfInterest::Quantity> quantities;
+    std::set<std::string>                       names;
     for (const auto &entry : Text::split(text_, ';', parameter))
       {
         const auto [name, definition] = Text::key_and_value(entry);
@@ -538,8 +527,8 @@ namespace Nacre
         AssertThrow(names.insert(name).second,
                     ExcMessage(parameter + ": two quantities are named '" +
                                name + "'."));
-        const std::string where = parameter + ", '" + name + "'";
-        Quantity          quantity;
+        const std::string              where = parameter + ", '" + name + "'";
+        QuantitiesOfInterest::Quantity quantity;
         quantity.name = name;
 
         const auto arrow = Text::find(definition, "->");
@@ -557,7 +546,8 @@ namespace Nacre
                    cuts,
                    exact_solution,
                    constants);
-        quantities_.push_back(std::move(quantity));
+        quantities.push_back(std::move(quantity));
       }
+    return {std::move(quantities), balance_origin};
   }
 } // namespace Nacre

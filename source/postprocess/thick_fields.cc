@@ -110,7 +110,7 @@ namespace Nacre
     const unsigned int n =
       n_subdivisions == 0 ? discretization.degree() : n_subdivisions;
     const FlatCells flat = triangles ? cut_triangle(n) : cut_quadrilateral(n);
-    const unsigned int n_layers = std::max(state.model.section.n_layers(), 1U);
+    const unsigned int n_layers = std::max(state.model.section->n_layers(), 1U);
     CellResults results(state, Quadrature<dim>(flat.points), false, true);
     for (const CellPart &part : discretization.owned_parts())
       {

@@ -21,7 +21,7 @@ namespace Nacre
                       const std::string                 &where)
   {
     TipRelease result{plateau.value_or(default_plateau(tip, shell.model.cuts)),
-                      shell.model.section.thickness(tip.position),
+                      shell.model.section->thickness(tip.position),
                       0.};
     const EnergyRelease release(shell, tip, result.plateau, where);
     const auto          plate = release.plate();

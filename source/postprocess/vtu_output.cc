@@ -355,7 +355,7 @@ namespace Nacre
                            const std::vector<double> &error_indicators,
                            const unsigned int         n_subdivisions,
                            const TrilinosWrappers::MPI::Vector *mode)
-    : n_layers_(state.model.section.n_layers())
+    : n_layers_(state.model.section->n_layers())
     , has_error_indicators_(!error_indicators.empty())
     , has_mode_(mode != nullptr)
   {

@@ -119,7 +119,7 @@ namespace Nacre
                            "Cycles: cuts that grow (Growth/Tips) keep their "
                            "mesh; set it to 0."));
     check_path(problem.path);
-    AssertThrow(!problem.model.section.has_initial_strain(),
+    AssertThrow(!problem.model.section->has_initial_strain(),
                 ExcMessage(section +
                            "Cycles: the estimate knows no initial strains; set "
                            "it to 0, and refine the whole mesh."));

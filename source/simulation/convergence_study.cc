@@ -21,8 +21,8 @@ namespace Nacre
                   "known as well.");
   }
 
-  ConvergenceStudy::ConvergenceStudy(const MPI_Comm              communicator,
-                                     std::unique_ptr<SectionLaw> section)
+  ConvergenceStudy::ConvergenceStudy(const MPI_Comm communicator,
+                                     std::unique_ptr<SectionParameters> section)
     : ParameterAcceptor("/Study")
     , communicator_(communicator)
     , problem_parameters_(std::move(section))
@@ -167,10 +167,10 @@ namespace Nacre
       problem_parameters_.make(parse_constants(heading_.constants, "Constants"),
                                shell_case,
                                std::move(midsurface)));
-    quantities_.prepare(problem_->model.midsurface,
-                        problem_->model.cuts,
-                        problem_->model.exact_solution,
-                        problem_->constants);
+    quantities_ = quantity_parameters_.make(problem_->model.midsurface,
+                                            problem_->model.cuts,
+                                            problem_->model.exact_solution,
+                                            problem_->constants);
     adaptive_.prepare(*problem_, quantities_);
   }
 

@@ -384,7 +384,7 @@ namespace Nacre
     {
       const ShellModel &model = problem.model;
       AssertThrow(!problem.growth.is_by_strength() ||
-                    model.section.n_layers() == 0,
+                    model.section->n_layers() == 0,
                   ExcMessage("Growth/Criterion: 'strength' is that of a "
                              "homogeneous section, and this one has layers; "
                              "choose 'energy release rate' or 'prescribed'."));
@@ -430,7 +430,7 @@ namespace Nacre
                            "leave it out, or choose 'Analysis/Type = "
                            "dynamic'."));
     AssertThrow(problem.growth.is_prescribed() || !path.is_linear() ||
-                  !problem.model.section.has_initial_strain(),
+                  !problem.model.section->has_initial_strain(),
                 ExcMessage("Growth/Criterion: in a linear analysis '" +
                            name_of(problem.growth.criterion) +
                            "' takes the factor of all loads at which a tip "

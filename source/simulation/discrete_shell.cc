@@ -30,7 +30,7 @@ namespace Nacre
       Cuts cuts = model.cuts;
       cuts.poissons_ratio =
         [&](const auto &x, const auto &e_1, const auto &e_2) {
-          const auto plate = elastic_plate(model.section, x, e_1, e_2);
+          const auto plate = elastic_plate(*model.section, x, e_1, e_2);
           // Any other is a shape function, too.
           if (!plate && model.cuts.tips != CutTips::branch_functions)
             return 0.3;
@@ -126,7 +126,7 @@ namespace Nacre
     const SolverParameters &chosen = problem_.solver;
     const bool              can_coarsen =
       MultigridSolver::has_coarser_mesh(discretization_) &&
-      problem_.model.section.n_state_variables() == 0 &&
+      problem_.model.section->n_state_variables() == 0 &&
       !discretization_.has_tip_functions();
     if (chosen.type == SolverType::multigrid &&
         discretization_.has_tip_functions())

@@ -94,7 +94,7 @@ namespace Nacre
             "displacements are uncertain by about "
          << accuracy.correction << " of their size: "
          << measure_conditioning(shell_.discretization(),
-                                 shell_.problem().model.section)
+                                 *shell_.problem().model.section)
               .cause();
     log.warning(text.str());
   }

@@ -54,7 +54,7 @@ namespace Nacre
                                               0u,
                               discretization.communicator());
         const auto   axes  = tip_axes(discretization, *end);
-        const double speed = rayleigh_speed(problem.model.section,
+        const double speed = rayleigh_speed(*problem.model.section,
                                             {end->position, region},
                                             axes[0],
                                             axes[1]);

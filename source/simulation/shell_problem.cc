@@ -144,7 +144,8 @@ namespace Nacre
   }
 
 
-  ProblemParameters::ProblemParameters(std::unique_ptr<SectionLaw> section)
+  ProblemParameters::ProblemParameters(
+    std::unique_ptr<SectionParameters> section)
     : section_(std::move(section))
   {}
 
@@ -153,16 +154,19 @@ namespace Nacre
                           const ShellCase          &shell_case,
                           std::optional<Midsurface> previous)
   {
-    const Element element    = discretization_.element(shell_case.degree);
-    Constants     constants  = prepare_section(constants_of_file, shell_case);
-    Midsurface    midsurface = midsurface_.make(constants, std::move(previous));
-    section_->set_regions(midsurface.regions());
-    auto edges_in_use = supports_.named_edges();
+    const Element element = discretization_.element(shell_case.degree);
+    Constants     constants =
+      all_constants(constants_of_file, shell_case.thickness);
+    Midsurface midsurface   = midsurface_.make(constants, std::move(previous));
+    auto       section      = section_->make(constants_of_file,
+                                  shell_case.thickness,
+                                  midsurface.regions());
+    auto       edges_in_use = supports_.named_edges();
     for (const std::string &name : loads_.named_edges())
       edges_in_use.push_back(name);
     midsurface.use_edges(edges_in_use);
 
-    ShellProblem problem{{std::move(midsurface), *section_}};
+    ShellProblem problem{{std::move(midsurface), std::move(section)}};
     ShellModel  &model   = problem.model;
     model.supports       = supports_.make(model.midsurface, constants);
     model.cuts           = cuts_.make(constants, model.midsurface);
@@ -197,14 +201,12 @@ namespace Nacre
   }
 
   Constants
-  ProblemParameters::prepare_section(const Constants &constants,
-                                     const ShellCase &shell_case)
+  ProblemParameters::all_constants(const Constants             &constants,
+                                   const std::optional<double> &thickness) const
   {
-    if (shell_case.thickness)
-      section_->set_thickness(*shell_case.thickness);
-    section_->prepare(constants);
     Constants result = constants;
-    for (const auto &[name, value] : section_->named_constants())
+    for (const auto &[name, value] :
+         section_->named_constants(constants, thickness))
       {
         AssertThrow(constants.count(name) == 0,
                     ExcMessage("Constants: '" + name +
@@ -250,7 +252,7 @@ namespace Nacre
   void
   ProblemParameters::check_section(const ShellProblem &problem)
   {
-    const SectionLaw     &section = problem.model.section;
+    const SectionLaw     &section = *problem.model.section;
     const PathParameters &path    = problem.path;
     if (section.is_linear())
       return;
@@ -361,7 +363,7 @@ namespace Nacre
                            name_of(problem.path.type) +
                            "' is linear; choose 'Analysis/Type = static' or "
                            "'Tension free = no'."));
-    AssertThrow(!problem.model.section.has_initial_strain() ||
+    AssertThrow(!problem.model.section->has_initial_strain() ||
                   problem.assembly == AssemblyMethod::fast,
                 ExcMessage("Section/Initial strain: 'Discretization/Assembly = "
                            "reference' doesn't know it; choose 'fast'."));

@@ -18,7 +18,7 @@ namespace Nacre
              shell.assembly(),
              problem.model,
              shell.solver())
-    , path(problem.path, system, problem.model.section)
+    , path(problem.path, system, *problem.model.section)
   {
     check_path_quantities(problem.path,
                           quantities,

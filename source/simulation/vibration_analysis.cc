@@ -50,7 +50,7 @@ namespace Nacre
     check_number(Utilities::MPI::sum(
       free_dofs(shell, prestress.constraints()).n_elements(),
       communicator_));
-    const MassTerms mass(shell.discretization(), problem_.model.section);
+    const MassTerms mass(shell.discretization(), *problem_.model.section);
     AssertThrow(problem_.modes.prestress == PrestressKind::none ||
                   prestress.acts(1.),
                 ExcMessage("Analysis/Prestress: nothing acts on the shell at "
@@ -84,7 +84,7 @@ namespace Nacre
                                   Eigenproblem        &problem) const
   {
     const auto sums =
-      bending_and_mass(shell.discretization(), problem_.model.section);
+      bending_and_mass(shell.discretization(), *problem_.model.section);
     const double D    = Utilities::MPI::sum(sums.first, communicator_);
     const double m    = Utilities::MPI::sum(sums.second, communicator_);
     const double L    = shell.discretization().extent().second;
@@ -109,7 +109,7 @@ namespace Nacre
     Modes           modes;
     Matrix          K, M;
     CpuTimer        timer(communicator_);
-    const MassTerms mass(shell.discretization(), problem_.model.section);
+    const MassTerms mass(shell.discretization(), *problem_.model.section);
     if (start() != nullptr)
       prestress.assemble_tangent(start()->u, start()->time, K);
     else

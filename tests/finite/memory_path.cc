@@ -40,7 +40,8 @@ run(const std::string              &name,
   // Tables have seconds in them.
   std::streambuf *const out = std::cout.rdbuf(nullptr);
   ParameterAcceptor::clear();
-  ConvergenceStudy  study(MPI_COMM_WORLD, std::make_unique<MemorySection>());
+  ConvergenceStudy  study(MPI_COMM_WORLD,
+                         std::make_unique<MemorySectionParameters>());
   const std::string csv = prepare(study, name, settings);
   Log               log(MPI_COMM_WORLD, true);
   study.run(log, restart);
@@ -90,7 +91,8 @@ void
 test_refusal(const std::vector<std::string> &settings, const std::string &words)
 {
   ParameterAcceptor::clear();
-  ConvergenceStudy study(MPI_COMM_WORLD, std::make_unique<MemorySection>());
+  ConvergenceStudy study(MPI_COMM_WORLD,
+                         std::make_unique<MemorySectionParameters>());
   bool             is_refused = false;
   try
     {

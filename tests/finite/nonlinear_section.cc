@@ -11,26 +11,17 @@
 
 #include <random>
 
-/** A law of a linear one, conditions and loads, one object at a time. */
-template <typename Section>
-struct PowerParameters : NoParameters
+/** A law of a linear one, no conditions and no loads. */
+struct PowerParameters
 {
   PowerParameters(const double beta, const bool has_memory = false)
-    : section(beta, has_memory)
-  {
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(
-      section_text(100., 0.3, 0.2));
-    ParameterAcceptor::parse_all_parameters();
-    section.prepare({});
-  }
+    : section(beta, has_memory, 100., 0.3, 0.2)
+  {}
 
-  PowerSection<Section> section;
-  BoundaryConditions    conditions;
-  Loads                 loads;
+  PowerSection<LinearElasticSection> section;
+  BoundaryConditions                 conditions;
+  Loads                              loads;
 };
-
-using Isotropic = PowerParameters<LinearElasticSection>;
 
 template <typename AnyParameters>
 Assembly
@@ -168,7 +159,7 @@ tangent_error(const std::string    &name,
 void
 test_difficult_mesh(const double beta, const KinematicsModel model)
 {
-  const Isotropic parameters(beta);
+  const PowerParameters parameters(beta);
   for (unsigned int degree = 2;
        degree <= (model == KinematicsModel::linear ? 2 : 3);
        ++degree)
@@ -200,9 +191,9 @@ test_difficult_mesh(const double beta, const KinematicsModel model)
 void
 test_smooth_field(const double beta, const KinematicsModel model)
 {
-  const Isotropic parameters(beta);
-  Mesh            mesh = difficult_mesh(false);
-  mesh.map             = [](const Point<3> &x) { return x; };
+  const PowerParameters parameters(beta);
+  Mesh                  mesh = difficult_mesh(false);
+  mesh.map                   = [](const Point<3> &x) { return x; };
   // Cells of parallels: a quadratic field of the plane is one of the element.
   for (unsigned int i = 0; i < mesh.vertices.size(); ++i)
     mesh.vertices[i] = {i % 3 + 0.2 * (i / 3), 0.9 * (i / 3), 0.};
@@ -260,7 +251,7 @@ test_linear_limit(const KinematicsModel model, const MembraneStrain strain)
   // One object with parameters at a time
   Answer linear =
     answer(std::make_unique<Parameters>(section_text(100., 0.3, 0.2)));
-  const Answer power  = answer(std::make_unique<Isotropic>(0.));
+  const Answer power  = answer(std::make_unique<PowerParameters>(0.));
   const double scale  = linear.force.linfty_norm();
   const double energy = linear.energies.total();
   linear.force -= power.force;
@@ -281,11 +272,11 @@ test_linear_limit(const KinematicsModel model, const MembraneStrain strain)
 void
 test_memory(const double beta)
 {
-  const Isotropic parameters(beta, true);
-  const auto      discretization = make_discretization(difficult_mesh(true), 2);
-  const auto      assembly       = make_assembly(*discretization, parameters);
-  const auto      u              = interpolate(*discretization, some_field);
-  const auto      at_end         = force_at(assembly, u);
+  const PowerParameters parameters(beta, true);
+  const auto discretization = make_discretization(difficult_mesh(true), 2);
+  const auto assembly       = make_assembly(*discretization, parameters);
+  const auto u              = interpolate(*discretization, some_field);
+  const auto at_end         = force_at(assembly, u);
   assembly.update_section_states(u, assembly.actions(Instant()));
   auto difference = force_at(assembly, u);
   difference -= at_end;
@@ -301,9 +292,9 @@ test_memory(const double beta)
 void
 test_refusal()
 {
-  const Isotropic parameters(1.);
-  const auto      discretization = make_discretization(difficult_mesh(true), 2);
-  bool            refused        = false;
+  const PowerParameters parameters(1.);
+  const auto discretization = make_discretization(difficult_mesh(true), 2);
+  bool       refused        = false;
   try
     {
       make_kinematics(*discretization,

@@ -111,14 +111,26 @@ namespace Tests
     const bool   has_memory_;
   };
 
-  /** With memory, of the parameters of an isotropic section. */
+  /** With memory, of an isotropic section. */
   struct MemorySection : PowerSection<LinearElasticSection>
   {
-    MemorySection()
-      : PowerSection<LinearElasticSection>(beta, true)
+    explicit MemorySection(const LinearElasticSection &section)
+      : PowerSection<LinearElasticSection>(beta, true, section)
     {}
 
     static constexpr double beta = 0.05;
+  };
+
+  struct MemorySectionParameters : LinearElasticSectionParameters
+  {
+    std::shared_ptr<const SectionLaw>
+    make(const Constants             &constants,
+         const std::optional<double> &thickness,
+         const MeshRegions           &regions) const override
+    {
+      return std::make_shared<MemorySection>(
+        section(constants, thickness, regions));
+    }
   };
 } // namespace Tests
 

@@ -14,14 +14,15 @@ constexpr double E = 100., h = 0.2;
 class Plate
 {
 public:
-  Plate(const TextModelOf<MemorySection> &text, const MPI_Comm communicator)
+  Plate(const TextModelOf<MemorySectionParameters> &text,
+        const MPI_Comm                              communicator)
     : discretization(text.model.midsurface,
                      communicator,
                      Element{ElementType::lagrange, 2},
                      0,
                      0)
     , assembly(discretization,
-               ShellParts(text.section,
+               ShellParts(*text.model.section,
                           text.model.supports,
                           text.model.loads,
                           finite(MembraneStrain::tied),
@@ -149,7 +150,8 @@ all_records(const Plate &plate)
 }
 
 void
-test_records(const TextModelOf<MemorySection> &text, const Plate &plate)
+test_records(const TextModelOf<MemorySectionParameters> &text,
+             const Plate                                &plate)
 {
   plate.end_step(bent(0.2));
   const auto   records = all_records(plate);
@@ -210,7 +212,7 @@ test_nearest(const Plate &plate)
 
 /** On a refined mesh points begin with the state of a point near to them. */
 void
-test_refinement(const TextModelOf<MemorySection> &text)
+test_refinement(const TextModelOf<MemorySectionParameters> &text)
 {
   // E_11 = s + s^2/2, s = u_1,1
   const auto root_at = [](const double x) {
@@ -231,7 +233,7 @@ test_refinement(const TextModelOf<MemorySection> &text)
                             Element{ElementType::lagrange, 2},
                             0,
                             Cuts());
-  SectionStates        states(text.section);
+  SectionStates        states(*text.model.section);
   states.take(fine, transfer);
   double error = 0.;
   for (const auto &cell : fine.dof_handler().active_cell_iterators())
@@ -257,7 +259,7 @@ main(int argc, char *argv[])
   std::cout.setstate(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ?
                        std::ios::goodbit :
                        std::ios::failbit);
-  const TextModelOf<MemorySection> text(
+  const TextModelOf<MemorySectionParameters> text(
     "subsection Mid-surface\n set Surface = plate\n set Subdivisions = 4, 2\n"
     " subsection plate\n  set Size = 4, 2\n end\nend\n" +
     section_text(E, 0., h) + edges_parameter + "u=0: clamped\nend\n");

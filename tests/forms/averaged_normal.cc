@@ -15,6 +15,8 @@ using namespace Tests;
 class RegionSection : public LinearElasticSection
 {
 public:
+  using LinearElasticSection::LinearElasticSection;
+
   SectionStiffness
   stiffness(const SurfaceFrame<> &frame,
             const SectionPoint   &point) const override
@@ -25,17 +27,9 @@ public:
   }
 };
 
-struct RegionParameters : NoParameters
+struct RegionParameters
 {
-  RegionParameters()
-  {
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(section_text(100., 0.3, 1.));
-    ParameterAcceptor::parse_all_parameters();
-    section.prepare({});
-  }
-
-  RegionSection      section;
+  RegionSection      section{100., 0.3, 1.};
   BoundaryConditions conditions;
   Loads              loads;
 };

@@ -22,20 +22,6 @@ public:
     , membrane_(membrane)
   {}
 
-  void
-  prepare(const Constants &) override
-  {}
-
-  void
-  set_thickness(const double) override
-  {}
-
-  Constants
-  named_constants() const override
-  {
-    return section_.named_constants();
-  }
-
   double
   thickness(const SectionPoint &point) const override
   {

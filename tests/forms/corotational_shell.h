@@ -47,7 +47,7 @@ struct Shell
     , midsurface(&parameters.model.midsurface)
     , conditions(&parameters.model.supports)
     , loads(&parameters.model.loads)
-    , section(&parameters.section)
+    , section(parameters.model.section.get())
   {
     discretization = std::make_unique<Discretization>(*midsurface,
                                                       MPI_COMM_WORLD,
@@ -68,7 +68,7 @@ struct Shell
   const Midsurface               *midsurface;
   const BoundaryConditions       *conditions;
   const Loads                    *loads;
-  const LinearElasticSection     *section;
+  const SectionLaw               *section;
   std::unique_ptr<Discretization> discretization;
 };
 

@@ -62,7 +62,7 @@ compare(const std::string    &name,
         const ShellModel     &shell,
         const MembraneStrain  strain)
 {
-  const ShellParts parts(shell.section, shell.supports, shell.loads, strain);
+  const ShellParts parts(*shell.section, shell.supports, shell.loads, strain);
   const Assembly   fast(discretization, parts);
   const ReferenceAssembly reference(discretization, parts, fast.penalty());
   // Without constraints: the diagonal of constrained dofs is arbitrary.
@@ -97,15 +97,16 @@ const std::string section = "subsection Section\n"
 void
 test_meshes()
 {
-  TextModel   shell(section + "subsection Loads\n"
-                              "  set Force per area = 1, x*y, z\n"
-                              "  set Gravity = 0, 0, -10\n"
-                              "end\n");
   MeshRegions regions;
   for (const char *const name : {"left", "right"})
     regions.regions.push_back({{name}, ""});
-  shell.section.set_regions(regions);
-  const auto test = [&](const std::string   &name,
+  const TextModel shell(section + "subsection Loads\n"
+                                  "  set Force per area = 1, x*y, z\n"
+                                  "  set Gravity = 0, 0, -10\n"
+                                  "end\n",
+                        {},
+                        regions);
+  const auto      test = [&](const std::string   &name,
                         const Mesh          &mesh,
                         const Element       &element,
                         const MembraneStrain strain) {

@@ -15,10 +15,13 @@ int
 main(int argc, char **argv)
 {
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Parameters                             parameters(
+  MeshRegions                            regions;
+  for (const char *const name : {"left", "right"})
+    regions.regions.push_back({{name}, ""});
+  const Parameters parameters(
     "subsection Section\n set Thickness = 0.1\n set Density = 2\n"
-                                " set Regions = left: h = 0.3; "
-                                "right: density = 7\nend\n");
+    " set Regions = left: h = 0.3; right: density = 7\nend\n",
+    regions);
   // The plate [0, 2] x [0, 1]; the regions are halves.
   Mesh mesh;
   for (const double y : {0., 1.})
@@ -36,12 +39,7 @@ main(int argc, char **argv)
     {ElementType::lagrange, 2},
     0);
 
-  LinearElasticSection &section = parameters.section;
-  MeshRegions           regions;
-  for (const char *const name : {"left", "right"})
-    regions.regions.push_back({{name}, ""});
-  section.set_regions(regions);
-  const MassTerms mass(discretization, section);
+  const MassTerms mass(discretization, parameters.section);
   check_below("total mass",
               std::abs(mass.total() - (0.3 * 2. + 0.1 * 7.)),
               1e-14);

@@ -71,25 +71,24 @@ struct GrownShell : NoParameters
              const KinematicsOptions &options)
     : discretization(make_discretization(mesh, lagrange(2)))
   {
-    ParameterAcceptor::declare_all_parameters();
-    ParameterAcceptor::prm.parse_input_from_string(text);
-    ParameterAcceptor::parse_all_parameters();
-    section.prepare({});
+    read_text(text);
+    law     = section.make({}, {}, MeshRegions());
     springs = foundation.make({}, MeshRegions());
-    ShellParts parts(section, conditions, loads, options, 7.);
+    ShellParts parts(*law, conditions, loads, options, 7.);
     parts.foundation = &springs;
     assembly         = std::make_unique<Assembly>(*discretization, parts);
     none.close();
   }
 
-  ShellSection                    section;
-  FoundationParameters            foundation;
-  Foundation                      springs;
-  BoundaryConditions              conditions;
-  Loads                           loads;
-  std::unique_ptr<Discretization> discretization;
-  std::unique_ptr<Assembly>       assembly;
-  AffineConstraints<double>       none;
+  ShellSectionParameters            section;
+  std::shared_ptr<const SectionLaw> law;
+  FoundationParameters              foundation;
+  Foundation                        springs;
+  BoundaryConditions                conditions;
+  Loads                             loads;
+  std::unique_ptr<Discretization>   discretization;
+  std::unique_ptr<Assembly>         assembly;
+  AffineConstraints<double>         none;
 };
 
 /** w = -(kappa0 : x x)/2 and the strains E0 leave no force and no energy. */

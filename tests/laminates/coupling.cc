@@ -235,7 +235,7 @@ test_patch(const Element &element)
   const std::string u   = "x = 0.01*x + 0.03*y, y = 0.02*y - 0.01*x, "
                           "z = 0.01*x^2 + 0.02*x*y - 0.03*y^2";
   const std::string w_x = "(0.02*x + 0.02*y)", w_y = "(0.02*x - 0.06*y)";
-  TextModelOf<LaminateSection> text(
+  TextModelOf<LaminateSectionParameters> text(
     stack +
       "subsection Mid-surface\n set Surface = expression\n"
       " set Subdivisions = 3, 3\n subsection expression\n"

@@ -305,6 +305,34 @@ test_bases()
               1e-13);
 }
 
+/** A study's thickness is that of all layups but those with their own. */
+void
+test_thickness_of_study()
+{
+  ParameterAcceptor::clear();
+  LaminateSectionParameters parameters;
+  read_text(laminate_text("[0/90]s",
+                          "0.2",
+                          "  set Offset = h/2\n"
+                          "  set Regions = web: h = 0.3\n"));
+  MeshRegions regions;
+  regions.regions.push_back({{"web"}, ""});
+  const auto section = parameters.section({}, 0.4, regions);
+  for (const unsigned int region : {0, 1})
+    {
+      const double       h = region == 0 ? 0.4 : 0.3;
+      const SectionPoint point(Point<3>(), region);
+      const std::string  name = "study, region " + std::to_string(region);
+      check_below(name + ": thickness",
+                  std::abs(section.thickness(point) - h),
+                  1e-15);
+      const auto s = section.stiffness(plane, point);
+      check_below(name + ": B of the offset",
+                  difference(s.coupling, 0.5 * h * s.membrane),
+                  1e-14);
+    }
+}
+
 int
 main()
 {
@@ -312,5 +340,6 @@ main()
   test_isotropic();
   test_plies();
   test_bases();
+  test_thickness_of_study();
   return n_failures > 0;
 }

@@ -5,7 +5,7 @@
 #define nacre_tests_laminates_laminate_parameters_h
 
 #include "../tests_common.h"
-#include <nacre/mechanics/laminate_section.h>
+#include <nacre/mechanics/laminate_parameters.h>
 
 namespace Tests
 {
@@ -25,16 +25,12 @@ namespace Tests
            "\n  set Thickness = " + thickness + "\n" + others + " end\nend\n";
   }
 
-  /** A laminate, conditions and loads of a text, one object at a time. */
-  struct LaminateParameters : NoParameters
+  /** A laminate of a text, no conditions and no loads. */
+  struct LaminateParameters
   {
     explicit LaminateParameters(const std::string &text)
-    {
-      ParameterAcceptor::declare_all_parameters();
-      ParameterAcceptor::prm.parse_input_from_string(text);
-      ParameterAcceptor::parse_all_parameters();
-      section.prepare({});
-    }
+      : section(section_of_text<LaminateSectionParameters>(text))
+    {}
 
     LaminateSection    section;
     BoundaryConditions conditions;

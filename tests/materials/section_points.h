@@ -11,20 +11,15 @@
 
 namespace Tests
 {
-  /** The section of a parameter file's lines; one object at a time. */
-  struct SectionOfText : NoParameters
+  /** The section of a parameter file's lines. */
+  inline std::shared_ptr<const SectionLaw>
+  section_of_lines(const std::string &lines)
   {
-    explicit SectionOfText(const std::string &lines)
-    {
-      ParameterAcceptor::declare_all_parameters();
-      ParameterAcceptor::prm.parse_input_from_string("subsection Section\n" +
-                                                     lines + "\nend\n");
-      ParameterAcceptor::parse_all_parameters();
-      section.prepare({});
-    }
-
-    ShellSection section;
-  };
+    ParameterAcceptor::clear();
+    ShellSectionParameters parameters;
+    read_text("subsection Section\n" + lines + "\nend\n");
+    return parameters.make({}, {}, MeshRegions());
+  }
 
   inline Vector3
   in_plane(const double x, const double y)

@@ -55,13 +55,36 @@ namespace
                 stiffness.bending[0][1],
                 nu * E * h * h * h / (12. * (1. - nu * nu)));
   }
+
+  /** Numbers out of range are refused by their name. */
+  void
+  check_refusal(const std::string &name,
+                const double       E,
+                const double       nu,
+                const double       h,
+                const double       density)
+  {
+    std::string message = "nothing";
+    try
+      {
+        LinearElasticSection(E, nu, h, density);
+      }
+    catch (const ExceptionBase &error)
+      {
+        message = error.what();
+      }
+    const bool good = message.find(name + ": ") != std::string::npos;
+    n_failures += good ? 0 : 1;
+    std::cout << "refused " << name << ": " << (good ? "OK" : message)
+              << std::endl;
+  }
 } // namespace
 
 
 int
 main()
 {
-  LinearElasticSection section;
+  LinearElasticSectionParameters parameters;
   ParameterAcceptor::declare_all_parameters();
   ParameterAcceptor::prm.parse_input_from_string(
     "subsection Section\n"
@@ -73,17 +96,19 @@ main()
   MeshRegions regions;
   for (const char *const name : {"flange", "plain", "web"})
     regions.regions.push_back({{name}, ""});
-  section.prepare({{"c", 0.25}});
-  section.set_regions(regions);
+  const Constants constants = {{"c", 0.25}};
+  const auto      section   = parameters.section(constants, {}, regions);
   check_region(section, 0, 100., 0.3, 0.2, 5.);
   check_region(section, 1, 100., 0.1, 0.2, 6.);
   check_region(section, 2, 100., 0.3, 0.2, 5.);
   check_region(section, 3, 200., 0.3, 0.05, 5.);
   std::cout << "thickness of a study" << std::endl;
-  section.set_thickness(0.4);
-  section.prepare({{"c", 0.25}});
-  section.set_regions(regions);
-  check_region(section, 1, 100., 0.1, 0.4, 6.);
-  check_region(section, 3, 200., 0.3, 0.1, 5.);
+  const auto other = parameters.section(constants, 0.4, regions);
+  check_region(other, 1, 100., 0.1, 0.4, 6.);
+  check_region(other, 3, 200., 0.3, 0.1, 5.);
+  check_refusal("Young's modulus", 0., 0.3, 0.1, 1.);
+  check_refusal("Poisson's ratio", 1., 0.5, 0.1, 1.);
+  check_refusal("Thickness", 1., 0.3, -0.1, 1.);
+  check_refusal("Density", 1., 0.3, 0.1, -1.);
   return n_failures;
 }

@@ -82,8 +82,6 @@ namespace MultigridTests
                                               cuts);
     }
 
-    LinearElasticSection section;
-
   private:
     ShellModel
     read(const std::string &text, const double thickness)
@@ -94,21 +92,24 @@ namespace MultigridTests
       prm.parse_input_from_string(text, "", true);
       ParameterAcceptor::parse_all_parameters();
       auto constants = parse_constants(prm.get("Constants"), "Constants");
+      std::optional<double> given;
       if (thickness > 0.)
-        section.set_thickness(thickness);
-      section.prepare(constants);
-      for (const auto &constant : section.named_constants())
-        constants.insert(constant);
-      ShellModel result{midsurface_.make(constants), section};
-      section.set_regions(result.midsurface.regions());
+        given = thickness;
+      const Constants of_section = section_.named_constants(constants, given);
+      const Constants of_file    = constants;
+      constants.insert(of_section.begin(), of_section.end());
+      Midsurface midsurface = midsurface_.make(constants);
+      auto       section = section_.make(of_file, given, midsurface.regions());
+      ShellModel result{std::move(midsurface), std::move(section)};
       result.supports = supports_.make(result.midsurface, constants);
       result.loads    = loads_.make(result.midsurface, constants);
       return result;
     }
 
-    MidsurfaceParameters        midsurface_;
-    BoundaryConditionParameters supports_;
-    LoadParameters              loads_;
+    LinearElasticSectionParameters section_;
+    MidsurfaceParameters           midsurface_;
+    BoundaryConditionParameters    supports_;
+    LoadParameters                 loads_;
 
   public:
     /** Tests choose the kinematics and eta. */

@@ -10,8 +10,9 @@
 namespace Tests
 {
   /** A model for meshes that are handed over: its own surface is not used. */
-  inline Nacre::ShellModel
-  square_model(const Nacre::SectionLaw    &section,
+  template <typename Section>
+  Nacre::ShellModel
+  square_model(const Section              &section,
                const Nacre::MembraneStrain strain = Nacre::MembraneStrain::tied)
   {
     Nacre::ChartRectangle rectangle;
@@ -20,7 +21,7 @@ namespace Tests
                               rectangle,
                               Nacre::make_chart_map(
                                 [](const dealii::Point<3> &c) { return c; }))),
-                            section};
+                            std::make_shared<Section>(section)};
     model.kinematics.membrane_strain = strain;
     return model;
   }

@@ -7,7 +7,7 @@
 
 #include "../tests_common.h"
 #include "square_model.h"
-#include <nacre/mechanics/laminate_section.h>
+#include <nacre/mechanics/laminate_parameters.h>
 #include <nacre/postprocess/thick_fields.h>
 
 #include <deal.II/base/mpi.h>
@@ -87,7 +87,7 @@ namespace
   void
   test_laminate()
   {
-    TextModelOf<LaminateSection> laminate(
+    const auto laminate = section_of_text<LaminateSectionParameters>(
       "subsection Section\n subsection Laminate\n"
       "  set Materials = m: E1 = 100, E2 = 10, nu12 = 0, G12 = 5\n"
       "  set Stack = [0/90]\n  set Thickness = 0.1\n  set Offset = 0.05\n"
@@ -95,7 +95,7 @@ namespace
     const auto mesh =
       make_discretization(rectangle(), Element{ElementType::lagrange, 2});
     const auto        u     = interpolate(*mesh, bent);
-    const auto        model = square_model(laminate.section);
+    const auto        model = square_model(laminate);
     const ThickFields fields({*mesh, model, u}, 0);
     double            stress = 0., low = 1., high = 0.;
     for (const auto &patch : fields.get_patches())

@@ -50,20 +50,7 @@ namespace
   const LinearElasticSection &
   section()
   {
-    static LinearElasticSection section;
-    static const bool           ready = [] {
-      ParameterAcceptor::declare_all_parameters();
-      auto &prm = ParameterAcceptor::prm;
-      prm.enter_subsection("Section");
-      prm.set("Young's modulus", "1000");
-      prm.set("Poisson's ratio", "0.25");
-      prm.set("Thickness", "0.2");
-      prm.leave_subsection();
-      ParameterAcceptor::parse_all_parameters();
-      section.prepare({});
-      return true;
-    }();
-    (void)ready;
+    static const LinearElasticSection section(E, nu, h);
     return section;
   }
 

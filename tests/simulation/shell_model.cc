@@ -28,8 +28,7 @@ test_roof()
   TextModel text(roof_text);
   text.model.element.degree = 3;
   const ShellProblem   from_text{std::move(text.model), 1};
-  const Roof::Section  section(4.32e8, 0., 0.25);
-  const ShellProblem   from_numbers{Roof::make_model(section, 3), 1};
+  const ShellProblem   from_numbers{Roof::make_model(3), 1};
   DiscreteShell        text_shell(MPI_COMM_WORLD, from_text, nullptr, 1, log);
   DiscreteShell        shell(MPI_COMM_WORLD, from_numbers, nullptr, 1, log);
   const LinearSolution text_solution(text_shell, nullptr, 0., log);

@@ -23,17 +23,6 @@ namespace
 
   struct Plate : LinearSectionLaw
   {
-    void
-    prepare(const Constants &) override
-    {}
-    void
-    set_thickness(const double) override
-    {}
-    Constants
-    named_constants() const override
-    {
-      return {};
-    }
     double
     thickness(const SectionPoint &) const override
     {

@@ -263,7 +263,7 @@ namespace Nacre
     bool
     has_initial_strain() const
     {
-      return model_.section.has_initial_strain();
+      return model_.section->has_initial_strain();
     }
 
     /** Largest dimension of the shell (length). */

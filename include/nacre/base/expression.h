@@ -35,13 +35,13 @@ namespace Nacre
    * of a parameter file with named constants (and pi). Malformed text and
    * unknown names throw an ExcMessage, values that aren't finite an
    * ExcUndefinedValue: it names the parameter, the expression, the point and
-   * the time.
+   * the time. Copies share the parser.
    */
   class Expression
   {
   public:
-    /** The constant @p value. */
-    Expression(const double value = 0.);
+    /** The constant @p value, for messages with the name @p where. */
+    Expression(const double value = 0., const std::string &where = "");
 
     /**
      * @param text the expression, e.g. "q*cos(2*x)"
@@ -54,11 +54,6 @@ namespace Nacre
                const std::string &where,
                const Constants   &constants,
                const std::string &variables = "x,y,z");
-    Expression(Expression &&) noexcept;
-    Expression &
-    operator=(Expression &&) noexcept;
-    ~Expression();
-
     /** The value at @p point and @p time; throws if it isn't finite. */
     double
     operator()(const Point<3> &point, const double time = 0.) const
@@ -69,6 +64,13 @@ namespace Nacre
     /** The value at its time, times its factor; throws if it isn't finite. */
     double
     operator()(const Point<3> &point, const Instant &instant) const;
+
+    /** The parameter that holds it, or a name, for messages. */
+    const std::string &
+    where() const
+    {
+      return where_;
+    }
 
     /** Whether the text mentions none of the variables. */
     bool
@@ -84,7 +86,7 @@ namespace Nacre
     std::string                        variables_;
     bool                               constant_ = true;
     double                             value_    = 0.;
-    std::unique_ptr<FunctionParser<3>> function_;
+    std::shared_ptr<FunctionParser<3>> function_;
   };
 
   /** Three expressions: the components of a vector along x, y, z. */

@@ -4,7 +4,7 @@
 #ifndef nacre_mechanics_checked_value_h
 #define nacre_mechanics_checked_value_h
 
-#include <nacre/base/types.h>
+#include <nacre/base/expression.h>
 
 #include <string>
 
@@ -16,6 +16,14 @@ namespace Nacre
    */
   double
   positive(const double value, const std::string &where, const Point<3> &point);
+
+  /** The same of its value at @p point. */
+  double
+  positive(const Expression &value, const Point<3> &point);
+
+  /** Throws unless the @p value is positive, if it is the same everywhere. */
+  void
+  check_positive(const Expression &value);
 } // namespace Nacre
 
 #endif

@@ -15,22 +15,26 @@ namespace Nacre
    * the rule takes the moment s_y h^2/4 of the section that yields all through
    * exactly, and elastic sections too.
    */
-  class ElastoplasticSection
-    : public IntegratedSection<J2Plasticity>
-    , public ParameterAcceptor
+  class ElastoplasticSection : public IntegratedSection<J2Plasticity>
   {
   public:
-    /** Thickness, density, E and nu are those of @p values. */
-    explicit ElastoplasticSection(LinearElasticSection &values);
-
-    void
-    prepare(const Constants &constants) override;
+    /**
+     * Throws for values out of range.
+     * @param elastic thickness, density, E and nu
+     * @param yield_stress s_y (force/length^2), positive
+     * @param hardening H (force/length^2), not negative
+     * @param n_points of Simpson's rule: 5, 9, 13, ...
+     */
+    ElastoplasticSection(LinearElasticSection elastic,
+                         const Expression    &yield_stress,
+                         const double         hardening = 0.,
+                         const unsigned int   n_points  = 9);
 
     SectionStiffness
     stiffness(const SurfaceFrame<> &frame,
               const SectionPoint   &point) const override
     {
-      return values().stiffness(frame, point);
+      return elastic().stiffness(frame, point);
     }
 
   protected:
@@ -38,15 +42,35 @@ namespace Nacre
     material_at(const SectionPoint &point) const override;
 
   private:
-    /** s_y (force/length^2) at @p point; throws if it isn't positive. */
-    double
-    yield_stress(const SectionPoint &point) const;
+    Expression yield_stress_;
+    double     hardening_;
+  };
 
-    std::string  yield_stress_text_;
-    std::string  hardening_text_ = "0";
-    unsigned int n_points_       = 9;
-    Expression   yield_stress_;
-    double       hardening_ = 0.;
+  /** The section Section/Plasticity of a parameter file. */
+  class ElastoplasticSectionParameters : public SectionParameters
+  {
+  public:
+    /** Thickness, density, E and nu are those of @p elastic. */
+    explicit ElastoplasticSectionParameters(
+      const LinearElasticSectionParameters &elastic);
+
+    Constants
+    named_constants(const Constants             &constants,
+                    const std::optional<double> &thickness) const override
+    {
+      return elastic_.named_constants(constants, thickness);
+    }
+
+    std::shared_ptr<const SectionLaw>
+    make(const Constants             &constants,
+         const std::optional<double> &thickness,
+         const MeshRegions           &regions) const override;
+
+  private:
+    const LinearElasticSectionParameters &elastic_;
+    std::string                           yield_stress_;
+    std::string                           hardening_ = "0";
+    unsigned int                          n_points_  = 9;
   };
 } // namespace Nacre
 

@@ -5,13 +5,13 @@
 #define nacre_mechanics_initial_strain_h
 
 #include <nacre/mechanics/section_law.h>
+#include <nacre/mechanics/section_regions.h>
 #include <nacre/mechanics/surface_axes.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <map>
 #include <string>
-#include <vector>
 
 namespace Nacre
 {
@@ -36,25 +36,25 @@ namespace Nacre
   curvature_of_growth(const Voigt<> &E, const SurfaceFrame<> &frame);
 
   /**
-   * The initial strains of a parameter file, subsection Section/Initial strain:
-   * growth, and thermal strains, which are alpha T + z alpha T' of an isotropic
-   * section. All of them are multiplied by the factor of an Instant.
+   * The initial strains of a section over its surface. All of them are
+   * multiplied by the factor of an Instant.
    */
-  class InitialStrainParameters : public ParameterAcceptor
+  class InitialStrains
   {
   public:
-    InitialStrainParameters();
+    /** Values by their keys, those of the parameter 'Regions', all of them. */
+    using Values = std::map<std::string, Expression>;
 
     /**
-     * Evaluate the texts; throws for what is no expression, and for values that
-     * a section with plies takes from their materials.
+     * @param direction the axis 1 is its projection onto the surface
+     * @param keeps_angles whether curvature_of_growth() is added
+     * @param has_plies whether temperatures are left to plies; otherwise they
+     *        strain the section by alpha T + z alpha T'
      */
-    void
-    prepare(const Constants &constants, const bool has_plies);
-
-    /** As SectionLaw::set_regions(). */
-    void
-    set_regions(const MeshRegions &mesh);
+    InitialStrains(ByRegion<Values>        values,
+                   const VectorExpression &direction,
+                   const bool              keeps_angles,
+                   const bool              has_plies);
 
     bool
     is_zero() const
@@ -62,9 +62,12 @@ namespace Nacre
       return is_zero_;
     }
 
-    /** Whether plies are warmer. */
+    /** Whether there are temperatures. */
     bool
-    has_temperature() const;
+    has_temperature() const
+    {
+      return has_temperature_;
+    }
 
     /** At a @p point of the surface; throws as projected_direction(). */
     InitialStrain
@@ -73,34 +76,50 @@ namespace Nacre
        const Instant        &instant) const;
 
   private:
-    /** Values by their keys; what is missing is zero, or the section's. */
-    using Values = std::map<std::string, Expression>;
+    ByRegion<Values> values_;
+    VectorExpression direction_;
+    bool             keeps_angles_;
+    bool             has_plies_;
+    bool             is_zero_;
+    bool             has_temperature_;
+  };
 
-    void
-    prepare_regions(const Constants &constants);
+  /** The section Section/Initial strain of a parameter file. */
+  class InitialStrainParameters : public ParameterAcceptor
+  {
+  public:
+    InitialStrainParameters();
 
-    double
-    value(const std::string  &key,
-          const SectionPoint &point,
-          const Instant      &instant) const;
+    /**
+     * Throws for what is no expression, for values that a section with plies
+     * takes from their materials, and as ByRegion for the mesh's @p regions.
+     */
+    InitialStrains
+    make(const Constants   &constants,
+         const bool         has_plies,
+         const MeshRegions &regions) const;
 
-    /** Keys of the texts, in the order of keys(). */
-    std::string strain_text_      = "0, 0, 0";
-    std::string curvature_text_   = "0, 0, 0";
-    std::string direction_text_   = "x";
-    std::string expansion_text_   = "0";
-    std::string temperature_text_ = "0";
-    std::string gradient_text_    = "0";
-    bool        keeps_angles_     = false;
-    std::string regions_text_;
+  private:
+    using Values = InitialStrains::Values;
 
-    Values                        values_;
-    VectorExpression              direction_;
-    bool                          has_plies_ = false;
-    bool                          is_zero_   = true;
-    std::map<std::string, Values> regions_;
-    /** By the region of a point; null: none of its own. */
-    std::vector<const Values *> region_of_id_;
+    /** Those of everywhere. */
+    Values
+    values(const Constants &constants) const;
+
+    /** Those of regions, by their names. */
+    std::map<std::string, Values>
+    values_of_regions(const Values    &everywhere,
+                      const Constants &constants,
+                      const bool       has_plies) const;
+
+    std::string strain_       = "0, 0, 0";
+    std::string curvature_    = "0, 0, 0";
+    std::string direction_    = "x";
+    std::string expansion_    = "0";
+    std::string temperature_  = "0";
+    std::string gradient_     = "0";
+    bool        keeps_angles_ = false;
+    std::string regions_;
   };
 } // namespace Nacre
 

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <utility>
 #include <vector>
 
 namespace Nacre
@@ -28,45 +29,30 @@ namespace Nacre
   class IntegratedSection : public SectionLaw
   {
   public:
-    /** Thickness, density and elastic constants are those of @p values. */
-    explicit IntegratedSection(LinearElasticSection &values)
-      : values_(values)
-    {}
-
-    void
-    prepare(const Constants &constants) override
+    /**
+     * @param elastic its thickness and density are those of the section, its
+     *        elastic constants those of materials that have such ones
+     * @param rule points in [0, 1] from the bottom up, at least two
+     */
+    IntegratedSection(LinearElasticSection elastic, const Quadrature<1> &rule)
+      : elastic_(std::move(elastic))
+      , rule_(rule)
     {
-      values_.prepare(constants);
-    }
-
-    void
-    set_thickness(const double thickness) override
-    {
-      values_.set_thickness(thickness);
-    }
-
-    Constants
-    named_constants() const override
-    {
-      return values_.named_constants();
-    }
-
-    void
-    set_regions(const MeshRegions &mesh) override
-    {
-      values_.set_regions(mesh);
+      AssertThrow(rule_.size() > 1,
+                  ExcMessage("A rule through the thickness needs two points "
+                             "or more."));
     }
 
     double
     thickness(const SectionPoint &point) const override
     {
-      return values_.thickness(point);
+      return elastic_.thickness(point);
     }
 
     double
     density(const SectionPoint &point) const override
     {
-      return values_.density(point);
+      return elastic_.density(point);
     }
 
     unsigned int
@@ -137,17 +123,10 @@ namespace Nacre
     virtual Material
     material_at(const SectionPoint &point) const = 0;
 
-    /** Points in [0, 1] from the bottom up, at least two. */
-    void
-    set_rule(const Quadrature<1> &rule)
-    {
-      rule_ = rule;
-    }
-
     const LinearElasticSection &
-    values() const
+    elastic() const
     {
-      return values_;
+      return elastic_;
     }
 
   private:
@@ -162,8 +141,8 @@ namespace Nacre
     std::vector<double>
     interpolate(const SectionState &state, const double height) const;
 
-    LinearElasticSection &values_;
-    Quadrature<1>         rule_;
+    LinearElasticSection elastic_;
+    Quadrature<1>        rule_;
   };
 } // namespace Nacre
 

@@ -7,17 +7,28 @@
 #include <nacre/base/expression.h>
 #include <nacre/mechanics/laminate.h>
 #include <nacre/mechanics/section_law.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <nacre/mechanics/section_regions.h>
 
 #include <array>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace Nacre
 {
+  /** A laminate in its place on a surface. */
+  struct Layup
+  {
+    Laminate laminate;
+    /** The whole thickness (length), positive. */
+    Expression thickness;
+    /** Of the middle from the reference surface, towards the top (length). */
+    double offset = 0.;
+    /** Whose projection is the axis 1; any length. */
+    VectorExpression direction = Tensor<1, 3>({1., 0., 0.});
+    /** In place of the direction the line of the parameter u (0) or v (1). */
+    std::optional<unsigned int> line = {};
+  };
+
   /**
    * A section of orthotropic plies: classical lamination theory, Laminate.
    *
@@ -25,28 +36,22 @@ namespace Nacre
    * material direction onto the surface or the line of a parameter of the
    * surface, towards the axis 2 = top x 1; `top` is the unit normal on the side
    * of the stack's top. That is the side of the normal t0, or the side to which
-   * the vector field of 'Top' points. Both depend on the position only, so that
+   * a vector field points. Both depend on the position only, so that
    * the stack is the same body whatever the numbering and the orientation of a
    * cell.
    */
-  class LaminateSection
-    : public LinearSectionLaw
-    , public ParameterAcceptor
+  class LaminateSection : public LinearSectionLaw
   {
   public:
-    LaminateSection();
-
-    void
-    prepare(const Constants &constants) override;
-
-    void
-    set_thickness(const double thickness) override;
-
-    Constants
-    named_constants() const override;
-
-    void
-    set_regions(const MeshRegions &mesh) override;
+    /**
+     * @param top the side of the stack's top; none: that of the normal t0
+     * @param lines MeshRegions::parameter_lines; throws if a layup needs them
+     *        and there are none
+     */
+    explicit LaminateSection(
+      ByRegion<Layup>                                          layups,
+      std::optional<VectorExpression>                          top   = {},
+      const std::vector<std::array<std::array<double, 2>, 2>> &lines = {});
 
     double
     thickness(const SectionPoint &point) const override;
@@ -121,29 +126,6 @@ namespace Nacre
     n_layers() const override;
 
   private:
-    /** The parameters of a stack, as texts; regions may have some of their own.
-     */
-    struct LayupTexts
-    {
-      std::string stack, thickness, ply_thickness, offset, direction;
-    };
-
-    /** A stack in its place. */
-    struct Layup
-    {
-      Laminate laminate;
-      /** The whole thickness (length). */
-      Expression thickness;
-      /** Whether a study over thicknesses leaves it. */
-      bool             has_own_thickness = false;
-      double           offset            = 0.;
-      VectorExpression direction;
-      /** In place of the direction the line of the parameter u (0) or v (1). */
-      std::optional<unsigned int> line;
-      /** The parameter, for messages. */
-      std::string where;
-    };
-
     /** Axes of the stack at a point. */
     struct Axes
     {
@@ -152,41 +134,6 @@ namespace Nacre
       /** +1 if the top is on the side of t0, -1 otherwise. */
       double side;
     };
-
-    void
-    read_materials(const Constants &constants);
-
-    /**
-     * The layup of the @p texts. @p where is the beginning of the parameters'
-     * names in messages.
-     */
-    Layup
-    make_layup(const LayupTexts  &texts,
-               const std::string &where,
-               const Constants   &constants) const;
-
-    std::vector<Laminate::Layer>
-    make_layers(const LayupTexts &texts, const std::string &where) const;
-
-    /**
-     * Give all layers a thickness and return the sum (length, or the number of
-     * plies if only the whole is known). @p names are those of the parameters
-     * of a ply's and of the whole thickness, for messages.
-     */
-    double
-    fill_thicknesses(std::vector<Laminate::Layer>     &layers,
-                     const LayupTexts                 &texts,
-                     const std::array<std::string, 2> &names,
-                     const Constants                  &constants) const;
-
-    void
-    read_regions(const Constants &constants);
-
-    const Layup &
-    layup(const SectionPoint &point) const;
-
-    double
-    thickness(const Layup &layup, const SectionPoint &point) const;
 
     /** Along the axis 1, or with a part normal to the surface; any length. */
     Tensor<1, 3>
@@ -199,26 +146,10 @@ namespace Nacre
          const SurfaceFrame<> &frame,
          const SectionPoint   &point) const;
 
-    std::string materials_text_;
-    LayupTexts  texts_;
-    std::string top_text_ = "normal";
-    std::string regions_text_;
-
-    struct Material
-    {
-      OrthotropicMaterial material;
-      /** Of a ply of it (length). */
-      std::optional<double> ply_thickness;
-    };
-
-    std::map<std::string, Material> materials_;
-    Layup                           layup_;
-    std::map<std::string, Layup>    regions_;
-    std::vector<const Layup *>      layup_of_id_;
-    /** By region: the lines of u and v, MeshRegions::parameter_lines. */
-    std::vector<std::array<std::array<double, 2>, 2>> lines_of_id_;
-    std::optional<VectorExpression>                   top_;
-    std::optional<double>                             thickness_of_study_;
+    ByRegion<Layup>                 layups_;
+    std::optional<VectorExpression> top_;
+    /** By region: the lines of u and v. */
+    std::vector<std::array<std::array<double, 2>, 2>> lines_;
     bool                                              is_coupled_ = false;
   };
 } // namespace Nacre

@@ -5,15 +5,13 @@
 #define nacre_mechanics_linear_elastic_section_h
 
 #include <nacre/base/expression.h>
-#include <nacre/mechanics/section_law.h>
-
-#include <deal.II/base/parameter_acceptor.h>
+#include <nacre/mechanics/section_parameters.h>
+#include <nacre/mechanics/section_regions.h>
 
 #include <array>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace Nacre
 {
@@ -49,37 +47,39 @@ namespace Nacre
     return isotropic_stiffness(frame.metric_con, nu);
   }
 
+  /** What an isotropic section is made of. */
+  struct IsotropicValues
+  {
+    /** E (force/length^2), positive. */
+    Expression youngs_modulus;
+    /** nu, larger than -1 and smaller than 1/2. */
+    double poissons_ratio = 0.;
+    /** h (length), positive. */
+    Expression thickness;
+    /** Mass per volume, not negative. */
+    Expression density;
+  };
+
   /**
    * Isotropic linear elastic homogeneous section, (8)-(10):
    * H_n = E h/(1 - nu^2) H, H_m = E h^3/(12 (1 - nu^2)) H.
-   * Regions of the mesh may have values of their own.
    */
-  class LinearElasticSection
-    : public LinearSectionLaw
-    , public ParameterAcceptor
+  class LinearElasticSection : public LinearSectionLaw
   {
   public:
-    LinearElasticSection();
+    /** The same everywhere; throws for values out of range. */
+    LinearElasticSection(const double E,
+                         const double nu,
+                         const double h,
+                         const double density = 0.);
 
-    void
-    prepare(const Constants &constants) override;
+    /**
+     * Throws for numbers out of range; expressions of the position are checked
+     * at the points of use.
+     */
+    explicit LinearElasticSection(ByRegion<IsotropicValues> values);
 
-    void
-    set_thickness(const double thickness) override;
-
-    Constants
-    named_constants() const override;
-
-    void
-    set_regions(const MeshRegions &mesh) override;
-
-    /** Whether regions have values of their own, before prepare(), too. */
-    bool
-    has_regions() const
-    {
-      return !regions_text_.empty();
-    }
-
+    /** Throws if it isn't positive, as the next one. */
     double
     thickness(const SectionPoint &point) const override;
 
@@ -98,41 +98,55 @@ namespace Nacre
               const SectionPoint   &point) const override;
 
   private:
-    /** What a region has instead of the section's own values. */
-    struct Region
+    ByRegion<IsotropicValues> values_;
+  };
+
+  /**
+   * The section Section of a parameter file: an isotropic section. Regions of
+   * the mesh may have values of their own.
+   */
+  class LinearElasticSectionParameters : public SectionParameters
+  {
+  public:
+    LinearElasticSectionParameters();
+
+    /** Whether regions have values of their own. */
+    bool
+    has_regions() const
     {
-      std::map<std::string, Expression> values;
-      std::optional<double>             nu;
-    };
+      return !regions_text_.empty();
+    }
 
-    void
-    prepare_regions(const Constants &constants);
+    Constants
+    named_constants(const Constants             &constants,
+                    const std::optional<double> &thickness) const override;
 
-    void
-    add_region_item(Region            &region,
-                    const std::string &item,
-                    const std::string &where,
-                    const Constants   &known) const;
+    std::shared_ptr<const SectionLaw>
+    make(const Constants             &constants,
+         const std::optional<double> &thickness,
+         const MeshRegions           &regions) const override
+    {
+      return std::make_shared<LinearElasticSection>(
+        section(constants, thickness, regions));
+    }
 
-    /** The region's own expression named @p key, or nothing. */
-    const Expression *
-    own_value(const SectionPoint &point, const std::string &key) const;
+    /** As make(). */
+    LinearElasticSection
+    section(const Constants             &constants,
+            const std::optional<double> &thickness,
+            const MeshRegions           &regions) const;
 
-    std::string youngs_modulus_text_ = "1";
-    std::string thickness_text_      = "0.1";
-    std::string density_text_        = "0";
-    std::string nu_text_             = "0.3";
+  private:
+    /** Those of everywhere, checked. */
+    IsotropicValues
+    values(const Constants             &constants,
+           const std::optional<double> &thickness) const;
+
+    std::string youngs_modulus_ = "1";
+    std::string thickness_      = "0.1";
+    std::string density_        = "0";
+    std::string nu_             = "0.3";
     std::string regions_text_;
-    double      nu_ = 0.3;
-
-    Expression            youngs_modulus_;
-    Expression            thickness_;
-    Expression            density_;
-    std::optional<double> thickness_of_study_;
-
-    std::map<std::string, Region> regions_;
-    /** By the region of a point; null: the section's own values. */
-    std::vector<const Region *> region_of_id_;
   };
 } // namespace Nacre
 

@@ -14,20 +14,27 @@ namespace Nacre
    * the thickness: C_ab(z) = a_ab - 2 z (b_ab - b0_ab) of the deformed surface,
    * with the metric of the undeformed mid-surface.
    */
-  class NeoHookeanSection
-    : public IntegratedSection<NeoHookean>
-    , public ParameterAcceptor
+  class NeoHookeanSection : public IntegratedSection<NeoHookean>
   {
   public:
+    /**
+     * @param shear_modulus mu (force/length^2), positive
+     * @param n_points of Gauss' rule
+     */
+    NeoHookeanSection(const double       shear_modulus,
+                      const double       thickness,
+                      const double       density  = 0.,
+                      const unsigned int n_points = 4)
+      : NeoHookeanSection(
+          {shear_modulus, "Shear modulus"},
+          LinearElasticSection(3. * shear_modulus, 0., thickness, density),
+          n_points)
+    {}
+
     /** Thickness and density are those of @p values. */
-    explicit NeoHookeanSection(LinearElasticSection &values);
-
-    void
-    prepare(const Constants &constants) override;
-
-    /** mu; E = 3 mu and nu = 1/2 as at small strains; h. */
-    Constants
-    named_constants() const override;
+    NeoHookeanSection(const Expression    &shear_modulus,
+                      LinearElasticSection values,
+                      const unsigned int   n_points);
 
     SectionStiffness
     stiffness(const SurfaceFrame<> &frame,
@@ -38,9 +45,34 @@ namespace Nacre
     material_at(const SectionPoint &point) const override;
 
   private:
-    std::string  shear_modulus_text_;
-    unsigned int n_points_ = 4;
-    Expression   shear_modulus_;
+    Expression shear_modulus_;
+  };
+
+  /** The section Section/Neo-Hookean of a parameter file. */
+  class NeoHookeanSectionParameters : public SectionParameters
+  {
+  public:
+    /** Thickness and density are those of @p values. */
+    explicit NeoHookeanSectionParameters(
+      const LinearElasticSectionParameters &values);
+
+    /** mu; E = 3 mu and nu = 1/2 as at small strains; h. */
+    Constants
+    named_constants(const Constants             &constants,
+                    const std::optional<double> &thickness) const override;
+
+    std::shared_ptr<const SectionLaw>
+    make(const Constants             &constants,
+         const std::optional<double> &thickness,
+         const MeshRegions           &regions) const override;
+
+  private:
+    Expression
+    shear_modulus(const Constants &constants) const;
+
+    const LinearElasticSectionParameters &values_;
+    std::string                           shear_modulus_;
+    unsigned int                          n_points_ = 4;
   };
 } // namespace Nacre
 

@@ -5,7 +5,6 @@
 #define nacre_mechanics_section_law_h
 
 #include <nacre/base/instant.h>
-#include <nacre/base/mesh_region.h>
 #include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/base/array_view.h>
@@ -121,7 +120,8 @@ namespace Nacre
   /**
    * The law of a section: how membrane forces and moments follow from strains.
    * To add a linear one, derive from LinearSectionLaw, otherwise from this
-   * class, and hand it to ConvergenceStudy.
+   * class; a ShellModel takes it. Parameter files have SectionParameters that
+   * make it. A law is complete and doesn't change.
    *
    * Strains are those of the reference surface: a fibre at the distance z
    * along t0 has the strain eps + z rho.
@@ -134,37 +134,6 @@ namespace Nacre
   {
   public:
     virtual ~SectionLaw() = default;
-
-    /**
-     * Evaluate the parameters' expressions and check them; throws ExcMessage
-     * on values out of range.
-     */
-    virtual void
-    prepare(const Constants &constants) = 0;
-
-    /** Replace the thickness (length), for a study over thicknesses. */
-    virtual void
-    set_thickness(const double thickness) = 0;
-
-    /**
-     * The constants E, nu, h of the section as far as they are numbers, for
-     * the expressions of loads and reference values.
-     */
-    virtual Constants
-    named_constants() const = 0;
-
-    /**
-     * Tell the section the mesh's regions; the index is the region() of a
-     * point, and region 0 has no name. A name may stand for several regions,
-     * and a region may have several names. Called after prepare(). Throws if
-     * the section has values for a region that isn't there, or for two names
-     * of one region. Sections that are the same everywhere need not care.
-     */
-    virtual void
-    set_regions(const MeshRegions &mesh)
-    {
-      (void)mesh;
-    }
 
     /** Thickness (length) at @p point; throws if it isn't positive. */
     virtual double

@@ -7,6 +7,8 @@
 #include <nacre/postprocess/point_results.h>
 #include <nacre/postprocess/quantity_phrase.h>
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,6 +101,30 @@ namespace Nacre
   double
   evaluate_point_quantity(const ShellState    &state,
                           const PointQuantity &quantity);
+
+  /** What a functional takes of a displacement u at a point. */
+  struct PointWeights
+  {
+    /** Of u (1). */
+    Tensor<1, spacedim> value = {};
+    /** Of u,1 and u,2 (1/length). */
+    std::array<Tensor<1, spacedim>, dim> derivatives = {};
+  };
+
+  /**
+   * The vector g of v . u + w_1 . u,1 + w_2 . u,2 = g . u at the @p point of
+   * the mid-surface; @p weights is called on the rank that has the point, with
+   * the values there and the dofs of the part of a cell, and answers v, w.
+   * Collective; throws with @p where if there is no such point.
+   */
+  TrilinosWrappers::MPI::Vector
+  point_functional(
+    const Discretization  &discretization,
+    const Point<spacedim> &point,
+    const std::string     &where,
+    const std::function<
+      PointWeights(const ShellCellValues                      &values,
+                   const std::vector<types::global_dof_index> &dofs)> &weights);
 
   /**
    * An angle at a displacement, up to whole turns (rad), and its gradient

@@ -13,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Nacre
@@ -42,7 +43,7 @@ namespace Nacre
   };
 
   /** The quantities that a study reports, by name. */
-  class QuantitiesOfInterest : public ParameterAcceptor
+  class QuantitiesOfInterest
   {
   public:
     struct Quantity
@@ -65,17 +66,15 @@ namespace Nacre
       GoalFunctional goal;
     };
 
-    QuantitiesOfInterest();
+    /** None. */
+    QuantitiesOfInterest() = default;
 
-    /**
-     * Read the list. Throws for unknown kinds and edges, for two quantities of
-     * one name and for an error norm without an exact solution.
-     */
-    void
-    prepare(const Midsurface    &midsurface,
-            const Cuts          &cuts,
-            const ExactSolution &exact_solution,
-            const Constants     &constants);
+    /** @param balance_origin as balance_origin() */
+    QuantitiesOfInterest(std::vector<Quantity>          quantities,
+                         const std::optional<Point<3>> &balance_origin)
+      : quantities_(std::move(quantities))
+      , balance_origin_(balance_origin)
+    {}
 
     const std::vector<Quantity> &
     quantities() const
@@ -95,10 +94,29 @@ namespace Nacre
     kinds();
 
   private:
-    std::string             text_;
-    std::string             balance_text_;
-    std::optional<Point<3>> balance_origin_;
     std::vector<Quantity>   quantities_;
+    std::optional<Point<3>> balance_origin_;
+  };
+
+  /** The section Quantities of a parameter file. */
+  class QuantityParameters : public ParameterAcceptor
+  {
+  public:
+    QuantityParameters();
+
+    /**
+     * Throws for unknown kinds and edges, for two quantities of one name and
+     * for an error norm without an exact solution.
+     */
+    QuantitiesOfInterest
+    make(const Midsurface    &midsurface,
+         const Cuts          &cuts,
+         const ExactSolution &exact_solution,
+         const Constants     &constants) const;
+
+  private:
+    std::string text_;
+    std::string balance_text_;
   };
 } // namespace Nacre
 

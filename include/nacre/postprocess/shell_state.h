@@ -36,7 +36,7 @@ namespace Nacre
     SectionAt
     section() const
     {
-      return {model.section, instant};
+      return {*model.section, instant};
     }
   };
 

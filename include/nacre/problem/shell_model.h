@@ -14,6 +14,7 @@
 #include <nacre/problem/loads.h>
 #include <nacre/problem/midsurface.h>
 
+#include <memory>
 #include <optional>
 
 namespace Nacre
@@ -25,18 +26,18 @@ namespace Nacre
    * from a parameter file, or that a program states. A model holds no time:
    * whoever evaluates loads and conditions says which Instant is meant.
    *
-   *   const IsotropicPlate section(210e9, 0.3, 0.01);
-   *   ShellModel model{Midsurface(describe_my_surface()), section};
+   *   ShellModel model{
+   *     Midsurface(describe_my_surface()),
+   *     std::make_shared<LinearElasticSection>(210e9, 0.3, 0.01)};
    *   model.supports.clamp(model.midsurface.edge_ids("left", "my program"));
    *   model.loads.force = Tensor<1, 3>({0., 0., -1e3});
    */
   struct ShellModel
   {
-    Midsurface midsurface;
-    /** Must live as long as the model. */
-    const SectionLaw  &section;
-    BoundaryConditions supports = {};
-    Loads              loads    = {};
+    Midsurface                        midsurface;
+    std::shared_ptr<const SectionLaw> section;
+    BoundaryConditions                supports = {};
+    Loads                             loads    = {};
     /**
      * Factor of loads and prescribed values over the time; none: they are
      * taken as they stand, at t = 0, as linear analyses do.

@@ -30,9 +30,9 @@ namespace Nacre
   class ConvergenceStudy : public ParameterAcceptor
   {
   public:
-    explicit ConvergenceStudy(
-      const MPI_Comm              communicator,
-      std::unique_ptr<SectionLaw> section = std::make_unique<ShellSection>());
+    explicit ConvergenceStudy(const MPI_Comm                     communicator,
+                              std::unique_ptr<SectionParameters> section =
+                                std::make_unique<ShellSectionParameters>());
     ~ConvergenceStudy() override;
 
     /**
@@ -110,11 +110,12 @@ namespace Nacre
     std::vector<std::string>  thicknesses_;
     std::vector<unsigned int> refinements_ = {0};
 
-    ProblemParameters    problem_parameters_;
-    QuantitiesOfInterest quantities_;
-    AdaptiveRefinement   adaptive_;
+    ProblemParameters  problem_parameters_;
+    QuantityParameters quantity_parameters_;
+    AdaptiveRefinement adaptive_;
     /** Of the case prepared last. */
     std::optional<ShellProblem> problem_;
+    QuantitiesOfInterest        quantities_;
   };
 } // namespace Nacre
 

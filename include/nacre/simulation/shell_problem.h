@@ -6,7 +6,7 @@
 
 #include <nacre/analysis/mode_parameters.h>
 #include <nacre/analysis/path_parameters.h>
-#include <nacre/mechanics/section_law.h>
+#include <nacre/mechanics/section_parameters.h>
 #include <nacre/problem/growth.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/simulation/chosen_solver.h>
@@ -107,8 +107,7 @@ namespace Nacre
   class ProblemParameters
   {
   public:
-    /** @param section the section law, which reads its own parameters */
-    explicit ProblemParameters(std::unique_ptr<SectionLaw> section);
+    explicit ProblemParameters(std::unique_ptr<SectionParameters> section);
 
     /**
      * Mesh files are read on rank 0 of @p communicator, and looked for in the
@@ -122,8 +121,7 @@ namespace Nacre
     }
 
     /**
-     * Read and check everything for a case; throws ExcMessage. The problem
-     * refers to the section, which the next call prepares anew. Collective if
+     * Read and check everything for a case; throws ExcMessage. Collective if
      * the mid-surface is a file's.
      * @param previous the mid-surface of the case before: see
      *   MidsurfaceParameters::make()
@@ -134,9 +132,10 @@ namespace Nacre
          std::optional<Midsurface> previous);
 
   private:
-    /** Prepare the section; @p constants and those that it names. */
+    /** @p constants and those of the section. */
     Constants
-    prepare_section(const Constants &constants, const ShellCase &shell_case);
+    all_constants(const Constants             &constants,
+                  const std::optional<double> &thickness) const;
 
     static void
     check(const ShellProblem &problem);
@@ -149,19 +148,19 @@ namespace Nacre
     static void
     check_tips(const ShellProblem &problem);
 
-    std::unique_ptr<SectionLaw> section_;
-    MidsurfaceParameters        midsurface_;
-    BoundaryConditionParameters supports_;
-    LoadParameters              loads_;
-    ExactSolutionParameters     exact_solution_;
-    AnalysisParameters          analysis_;
-    ModeParameters              modes_;
-    LinearSolverParameters      solver_;
-    DiscretizationParameters    discretization_;
-    ResultAxesParameters        result_axes_;
-    FoundationParameters        foundation_;
-    CutParameters               cuts_;
-    GrowthParameters            growth_;
+    std::unique_ptr<SectionParameters> section_;
+    MidsurfaceParameters               midsurface_;
+    BoundaryConditionParameters        supports_;
+    LoadParameters                     loads_;
+    ExactSolutionParameters            exact_solution_;
+    AnalysisParameters                 analysis_;
+    ModeParameters                     modes_;
+    LinearSolverParameters             solver_;
+    DiscretizationParameters           discretization_;
+    ResultAxesParameters               result_axes_;
+    FoundationParameters               foundation_;
+    CutParameters                      cuts_;
+    GrowthParameters                   growth_;
   };
 } // namespace Nacre
 
