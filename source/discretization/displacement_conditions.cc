@@ -273,8 +273,7 @@ namespace Nacre
                     << node.position[0] << ", " << node.position[1] << ", "
                     << node.position[2] << "): '" << *component.source
                     << "' against '" << *nearest << "'.";
-            AssertThrow(std::abs(value) <=
-                          1e-3 * rest.norm() + 1e-8 * magnitude,
+            AssertThrow(std::abs(value) <= (rest.norm() + 1e-8) * magnitude,
                         ExcMessage(message.str()));
           }
       }

@@ -99,6 +99,29 @@ namespace Nacre
     }
   } // namespace
 
+  VectorDerivatives
+  VectorDerivatives::plus(const double             factor,
+                          const VectorDerivatives &other) const
+  {
+    VectorDerivatives sum(*this);
+    for (unsigned int a = 0; a < first.size(); ++a)
+      sum.first[a] += factor * other.first[a];
+    for (unsigned int v = 0; v < second.size(); ++v)
+      sum.second[v] += factor * other.second[v];
+    return sum;
+  }
+
+  double
+  VectorDerivatives::norm() const
+  {
+    double squares = 0.;
+    for (const auto &derivative : first)
+      squares += derivative.norm_square();
+    for (const auto &derivative : second)
+      squares += derivative.norm_square();
+    return std::sqrt(squares);
+  }
+
   CrackExtension::CrackExtension(const CrackTip     &tip,
                                  const CrackPlateau &plateau,
                                  const SurfacePatch &surface)

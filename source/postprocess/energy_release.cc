@@ -68,14 +68,11 @@ namespace Nacre
              Text::number(x[2]) + ")";
     }
 
-    VectorDerivatives &
-    add(VectorDerivatives &u, const double factor, const VectorDerivatives &v)
+    /** The size @p u in sizes @p X; 1 if it has none. */
+    double
+    multiple(const double u, const double X)
     {
-      for (unsigned int a = 0; a < 2; ++a)
-        u.first[a] += factor * v.first[a];
-      for (unsigned int k = 0; k < 3; ++k)
-        u.second[k] += factor * v.second[k];
-      return u;
+      return u > 0. && X > 0. ? u / X : 1.;
     }
 
     /**
@@ -411,17 +408,18 @@ namespace Nacre
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
             const auto X = williams_derivatives(fields[i], tip_, side, surface);
-            const double held = held_work(*shell_.model.section,
+            const double held  = held_work(*shell_.model.section,
                                           tip_,
                                           surface,
                                           frame,
                                           X,
                                           u,
                                           extension);
-            auto         plus = u, minus = u;
+            const double times = multiple(u.norm(), X.norm());
             sums[i + 1] -=
-              weight * (change(add(plus, 1., X)) - change(add(minus, -1., X)) +
-                        2. * (load * carried(X, extension) + held) * frame.j0);
+              weight *
+              ((change(u.plus(times, X)) - change(u.plus(-times, X))) / times +
+               2. * (load * carried(X, extension) + held) * frame.j0);
           }
       }
   }
@@ -469,17 +467,21 @@ namespace Nacre
         sums[0] -= edge.JxW(q) * change(sides);
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
-            auto plus = sides, minus = sides;
+            std::array<VectorDerivatives, 2> X;
+            for (unsigned int s = 0; s < 2; ++s)
+              X[s] = williams_derivatives(fields[i],
+                                          tip_,
+                                          side_of_lip[s],
+                                          sides[s].surface);
+            const double times = multiple(sides[0].u.norm() + sides[1].u.norm(),
+                                          X[0].norm() + X[1].norm());
+            auto         plus = sides, minus = sides;
             for (unsigned int s = 0; s < 2; ++s)
               {
-                const auto X = williams_derivatives(fields[i],
-                                                    tip_,
-                                                    side_of_lip[s],
-                                                    sides[s].surface);
-                add(plus[s].u, 1., X);
-                add(minus[s].u, -1., X);
+                plus[s].u  = sides[s].u.plus(times, X[s]);
+                minus[s].u = sides[s].u.plus(-times, X[s]);
               }
-            sums[i + 1] -= edge.JxW(q) * (change(plus) - change(minus));
+            sums[i + 1] -= edge.JxW(q) * (change(plus) - change(minus)) / times;
           }
       }
   }

@@ -105,7 +105,7 @@ namespace Nacre
     text << "growth step " << growth_.n_steps() << " at t = " << state.time
          << (problem_.path.is_dynamic() ? " can't be taken: " :
                                           " has no equilibrium: ")
-         << failure
+         << failure.substr(0, failure.find_last_not_of('.') + 1)
          << ". The state before it is kept. Choose a smaller 'Growth/Step', or "
             "prescribe displacements instead of loads.";
     growth_.undo();

@@ -486,6 +486,13 @@ case("contradiction_at_corner",
 case("contradiction_on_edge",
      ["Contradicting conditions at the point (", "conormal = 1", "x = 0"],
      {EDGES: "u=0: x = 0, y = 0, z = 0, conormal = 1; u=1: fixed"})
+# Small values contradict as large ones do, where normals are but nearly axes.
+case("contradiction_of_small_values",
+     ["Contradicting conditions at the point (1, 0, 0)", "x = 0",
+      "normal = 1e-9"],
+     {"Mid-surface/Surface": "sphere", "Mid-surface/sphere/Part": "octant",
+      "Study/Refinements": "1",
+      EDGES: "y=0: normal = 1e-9; equator: x = 0"})
 case("contradiction_at_support",
      ["Contradicting conditions at the point (0, 0, 0)", POINTS, "z = 1"],
      {POINTS: "(0, 0, 0): z = 1"})

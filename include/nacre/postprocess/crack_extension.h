@@ -50,6 +50,14 @@ namespace Nacre
     std::array<Tensor<1, 3>, 2> first;
     /** 11, 22, 12. */
     std::array<Tensor<1, 3>, 3> second;
+
+    /** The sum with @p factor times @p other. */
+    VectorDerivatives
+    plus(const double factor, const VectorDerivatives &other) const;
+
+    /** Root of the sum of all squares. */
+    double
+    norm() const;
   };
 
   /** The mid-surface at a point, as far as a moving point feels it. */

@@ -60,7 +60,9 @@ namespace Nacre
      *
      *   K = [G(u + X) - G(u - X)] / (4 g),
      *
-     * g = unit_release_rate(). Throws unless the kinematics are linear and the
+     * g = unit_release_rate(). G is quadratic, so that at each point a multiple
+     * of X of the size of u gives the same with less round-off, in any units.
+     * Throws unless the kinematics are linear and the
      * section is homogeneous and isotropic. Collective.
      */
     double
@@ -143,7 +145,7 @@ namespace Nacre
 
     /**
      * G of the displacement u, and behind it G(u + X) - G(u - X) of each of the
-     * @p fields X. Collective.
+     * @p fields X, as intensity() has it. Collective.
      */
     std::vector<double>
     release(const std::vector<WilliamsField> &fields) const;
