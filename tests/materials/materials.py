@@ -135,6 +135,7 @@ def plastic_plate(folder):
     unit = 1e-6 * 0.02**2 / 4 / (0.02**3 / 12 / (1 - 0.3**2))
     folder.succeed(str(FILES / "plastic_plate.prm"),
                    **{**COARSE, "Study__Degrees": "4"},
+                   Discretization__Kinematics="linear",
                    Section__Plasticity__Points="9",
                    Analysis__Control_step=str(0.4 * unit),
                    Analysis__Control_values=", ".join(
@@ -142,6 +143,19 @@ def plastic_plate(folder):
     check_path(folder, "w", "time",
                [(0.2599 * unit, 4), (0.4777 * unit, 5.5),
                 (1.087 * unit, 6.3), (3 * unit, 6.5)], 5e-3)
+
+
+@test(1)
+def square_plate(folder):
+    """Near its limit load 25.0 M_p/a^2, from coarse steps."""
+    folder.succeed(str(FILES / "limit_load.prm"),
+                   **{**COARSE, "Study__Degrees": "4",
+                      "Mid-surface__Subdivisions": "2"},
+                   Section__Plasticity__Points="5",
+                   Analysis__Control_step="0.2*w0",
+                   Analysis__Control_values="0.6*w0")
+    load = float(folder.rows("case_path.csv")[-1]["time"])
+    check(near(load, 25.0, 1e-2), f"limit load {load}, not 25.0")
 
 
 @test(1, 2)
@@ -186,7 +200,8 @@ subsection Quantities
                    M = moment 11 at (1.9, 0.6, 1)
 end
 """)
-        folder.succeed("shell.prm", **COARSE, Study__Refinements="0")
+        folder.succeed("shell.prm", **COARSE, Study__Refinements="0",
+                       Study__Penalties="5", Analysis__Time_step="0.5")
         rows[kind] = folder.rows("case.csv")[-1]
     linear, metal = rows["isotropic"], rows["elastoplastic"]
     for column in "w", "U", "M":
