@@ -119,9 +119,9 @@ namespace Nacre
     }
 
     /**
-     * The values of all fields; f_k e_x of scalars. @p side is positive on the sheet of the
-     * crack's left lip, negative on that of its right one, where theta goes on
-     * beyond half a turn; 0: theta as it is.
+     * The values of all fields; f_k e_x of scalars. @p side is positive on the
+     * sheet of the crack's left lip, negative on that of its right one, where
+     * theta goes on beyond half a turn; 0: theta as it is.
      */
     std::vector<Tensor<1, 3>>
     values(const Point<3> &position, const int side) const;
