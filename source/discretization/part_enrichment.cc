@@ -14,7 +14,10 @@ namespace Nacre
 {
   namespace
   {
-    /** The functions N_a psi_i e_i, N_a (1 - psi_i) e_i of open nodes. */
+    /**
+     * The functions N_a psi_i e_i, N_a (1 - psi_i) e_i of open nodes, or those
+     * of one scalar psi.
+     */
     void
     append_jumps(const PartEnrichment::Share         &share,
                  const std::vector<FieldDerivatives> &fields,
@@ -27,7 +30,7 @@ namespace Nacre
           {
             FieldDerivatives f;
             if (!opens_left)
-              f.value = share.functions->tip().axes[i];
+              f.value = share.functions->direction(i);
             f.add(opens_left ? 1. : -1., fields[i]);
             const double     N   = shapes.value(q, a);
             const auto      &dN  = shapes.gradient(q, a);

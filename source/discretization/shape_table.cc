@@ -54,6 +54,49 @@ namespace Nacre
     hessians_.push_back({{hessian[0][0], hessian[1][1], hessian[0][1]}});
   }
 
+  namespace
+  {
+    /** Append to each row of @p table, [row][old], its @p entries. */
+    template <typename Value>
+    void
+    append_to_rows(const unsigned int        n_rows,
+                   const std::vector<Value> &entries,
+                   std::vector<Value>       &table)
+    {
+      const unsigned int n_old = table.size() / n_rows;
+      const unsigned int n_new = entries.size() / n_rows;
+      std::vector<Value> result;
+      result.reserve(table.size() + entries.size());
+      for (unsigned int row = 0; row < n_rows; ++row)
+        {
+          const auto old  = table.begin() + row * n_old;
+          const auto more = entries.begin() + row * n_new;
+          result.insert(result.end(), old, old + n_old);
+          result.insert(result.end(), more, more + n_new);
+        }
+      table.swap(result);
+    }
+  } // namespace
+
+  void
+  ShapeTable::append_functions(const std::vector<FieldDerivatives> &functions)
+  {
+    std::vector<double>                values;
+    std::vector<std::array<double, 2>> gradients;
+    std::vector<std::array<double, 3>> hessians;
+    for (const auto &f : functions)
+      {
+        values.push_back(f.value[0]);
+        gradients.push_back({{f.first[0][0], f.first[1][0]}});
+        hessians.push_back({{f.second[0][0], f.second[1][0], f.second[2][0]}});
+      }
+    const unsigned int n = n_points();
+    append_to_rows(n, values, values_);
+    append_to_rows(n, gradients, gradients_);
+    append_to_rows(n, hessians, hessians_);
+    n_nodes_ = values_.size() / n;
+  }
+
   GeometryTable::GeometryTable(const FiniteElement<dim, spacedim> &fe,
                                const std::vector<Point<dim>>      &points)
     : GeometryTable(ShapeTable(fe, points))

@@ -313,6 +313,8 @@ namespace Nacre
                            table.points[q],
                            tip_functions_[side],
                            lip);
+    if (enrichment->has_scalars())
+      piece_tables_[side]->shapes.append_functions(tip_functions_[side]);
   }
 
   void
@@ -326,14 +328,14 @@ namespace Nacre
     for (unsigned int k = 0; k < tip_dofs_[0].size(); ++k)
       tip_dofs_[0][k] = n + k;
     if (n_sides_ == 1)
-      return;
+      return move_scalar_dofs();
 
     // Shared nodes lie on the boundary of both cells; they come first.
     const auto        &fe       = discretization_.scalar_fe();
     const unsigned int n_shared = fe.n_dofs_per_cell() - fe.n_dofs_per_quad();
     discretization_.get_dof_indices(parts_[1], cell_dofs_[1]);
     auto &joint = joint_dofs_[1];
-    std::fill(joint.begin(), joint.end(), numbers::invalid_unsigned_int);
+    joint.assign(n, numbers::invalid_unsigned_int);
     for (unsigned int b = 0; b < n_shared; ++b)
       {
         const auto dof = cell_dofs_[1][node_dofs[spacedim * b]];
@@ -349,6 +351,14 @@ namespace Nacre
           joint[local_to_node_[i]] = dof_indices_.size();
           dof_indices_.push_back(cell_dofs_[1][i]);
         }
+    join_tip_dofs();
+    move_scalar_dofs();
+  }
+
+  void
+  ShellEdgeValues::join_tip_dofs()
+  {
+    const unsigned int n = local_to_node_.size();
     for (unsigned int k = 0; k < tip_dofs_[1].size(); ++k)
       {
         // Both sides may have the functions of one tip.
@@ -362,6 +372,20 @@ namespace Nacre
           }
         else
           tip_dofs_[1][k] = found - begin;
+      }
+  }
+
+  void
+  ShellEdgeValues::move_scalar_dofs()
+  {
+    for (unsigned int side = 0; side < n_sides_; ++side)
+      {
+        auto &of_tips = tip_dofs_[side];
+        if (of_tips.empty() || !enrichment_of(parts_[side])->has_scalars())
+          continue;
+        auto &joint = joint_dofs_[side];
+        joint.insert(joint.end(), of_tips.begin(), of_tips.end());
+        of_tips.clear();
       }
   }
 

@@ -64,7 +64,9 @@ namespace Nacre
   {
     const bool                  was_cut    = is_cut();
     const PartEnrichment *const enrichment = enrichment_of(part);
-    n_tip_functions_ = enrichment != nullptr ? enrichment->n_functions() : 0;
+    n_functions_ = enrichment != nullptr ? enrichment->n_functions() : 0;
+    n_tip_functions_ =
+      enrichment != nullptr && !enrichment->has_scalars() ? n_functions_ : 0;
     if (enrichment != nullptr)
       {
         // Strains of tip functions are singular: neither tied nor projected,
@@ -127,16 +129,25 @@ namespace Nacre
       frames_[q] = geometry_.frame(q);
     if (tables().has_tying_points)
       tables().tying_geometry.evaluate(nodes, tying_geometry_);
-    if (n_tip_functions_ == 0)
-      return;
+    if (const auto *const enrichment = enrichment_of(part))
+      evaluate_tip_functions(*enrichment);
+  }
+
+  void
+  ShellCellValues::evaluate_tip_functions(const PartEnrichment &enrichment)
+  {
     tip_functions_.clear();
     for (unsigned int q = 0; q < n_points(); ++q)
-      part.enrichment()->evaluate(shapes(),
-                                  geometry_,
-                                  q,
-                                  quadrature().point(q),
-                                  tip_functions_,
-                                  lip_);
+      enrichment.evaluate(shapes(),
+                          geometry_,
+                          q,
+                          quadrature().point(q),
+                          tip_functions_,
+                          lip_);
+    if (!enrichment.has_scalars())
+      return;
+    of_part_->shapes.append_functions(tip_functions_);
+    of_part_->tying_shapes = of_part_->shapes;
   }
 
   void
@@ -156,7 +167,7 @@ namespace Nacre
     for (unsigned int k = 0; k < tying_frames_.size(); ++k)
       for (unsigned int alpha = 0; alpha < dim; ++alpha)
         tying_frames_[k].a_cov[alpha] = tying_geometry_.tangent(k, alpha);
-    if (n_tip_functions_ == 0 && (tied_ || (is_cut() && projects_)))
+    if (n_functions_ == 0 && (tied_ || (is_cut() && projects_)))
       fill_tied_membrane_rows();
     else
       fill_membrane_rows();
@@ -166,8 +177,7 @@ namespace Nacre
   void
   ShellCellValues::fill_membrane_rows()
   {
-    const ShapeTable         &shapes = this->shapes();
-    const unsigned int *const dofs   = discretization_.node_dofs().data();
+    const ShapeTable &shapes = this->shapes();
     for (unsigned int q = 0; q < n_points(); ++q)
       {
         const auto &a_cov  = frames_[q].a_cov;
@@ -179,7 +189,7 @@ namespace Nacre
             const auto &dN = shapes.gradient(q, a);
             for (unsigned int c = 0; c < spacedim; ++c)
               {
-                const unsigned int i = dofs[spacedim * a + c];
+                const unsigned int i = dof(a, c);
                 row[0][i]            = a_cov[0][c] * dN[0];
                 row[1][i]            = a_cov[1][c] * dN[1];
                 row[2][i] = a_cov[0][c] * dN[1] + a_cov[1][c] * dN[0];
@@ -228,8 +238,7 @@ namespace Nacre
   void
   ShellCellValues::fill_bending_rows()
   {
-    const ShapeTable         &shapes = this->shapes();
-    const unsigned int *const dofs   = discretization_.node_dofs().data();
+    const ShapeTable &shapes = this->shapes();
     for (unsigned int q = 0; q < n_points(); ++q)
       {
         const auto &t0     = frames_[q].t0;
@@ -244,7 +253,7 @@ namespace Nacre
                                                      shapes.hessian(q, a));
             for (unsigned int c = 0; c < spacedim; ++c)
               {
-                const unsigned int i = dofs[spacedim * a + c];
+                const unsigned int i = dof(a, c);
                 for (unsigned int v = 0; v < 3; ++v)
                   row[v][i] = strain[v] * t0[c];
               }

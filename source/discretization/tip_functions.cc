@@ -36,8 +36,38 @@ namespace Nacre
           fields.push_back(
             bending_williams_field(n, symmetric, plate).stretched(length));
         }
-    AssertDimension(fields.size(), n_branch_functions);
     return TipFunctions(tip, fields, length);
+  }
+
+  TipFunctions
+  TipFunctions::branch_scalars(const Tip   &tip,
+                               const double poissons_ratio,
+                               const double length)
+  {
+    std::vector<PolarSeries> scalars;
+    for (const unsigned int n : {1, 3})
+      for (const double frequency : {0.5 * n, 0.5 * n - 2.})
+        for (const bool symmetric : {true, false})
+          {
+            PolarSeries f;
+            f.add(0.5 * n, frequency, symmetric ? 1. : 0., symmetric ? 0. : 1.);
+            scalars.push_back(f.stretched(length));
+          }
+    for (const bool symmetric : {true, false})
+      scalars.push_back(bending_williams_series(3, symmetric, poissons_ratio)
+                          .stretched(length));
+    return TipFunctions(tip, scalars, length);
+  }
+
+  TipFunctions::TipFunctions(const Tip                      &tip,
+                             const std::vector<PolarSeries> &scalars,
+                             const double                    length)
+    : tip_(tip)
+    , length_(length)
+    , are_scalars_(true)
+  {
+    for (const PolarSeries &f : scalars)
+      fields_.emplace_back(std::array<PolarSeries, 3>{{f, {}, {}}});
   }
 
   std::pair<double, double>
@@ -88,8 +118,8 @@ namespace Nacre
         for (unsigned int v = 0; v < 3; ++v)
           d2[i][v] = tip_.axes[i] * surface.second[v];
       }
-    result.resize(size());
-    for (unsigned int k = 0; k < size(); ++k)
+    result.resize(n_fields());
+    for (unsigned int k = 0; k < n_fields(); ++k)
       {
         const auto &field    = fields_[k];
         const auto  gradient = field.gradient(r, theta);

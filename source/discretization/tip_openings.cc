@@ -339,6 +339,18 @@ namespace Nacre
                                                          cell->material_id()),
                                             frame.axes[0],
                                             frame.axes[1]));
+    const bool fits =
+      std::max(tangential.residual, normal.residual) < largest_residual;
+    if (cuts.tips_turn)
+      {
+        // One function for all directions: that which can bend.
+        openings_[t].functions =
+          std::make_shared<const TipFunctions>(frame,
+                                               std::vector<PolarSeries>{
+                                                 normal.psi},
+                                               cell->diameter());
+        return fits;
+      }
     std::vector<WilliamsField> fields;
     for (unsigned int i = 0; i < spacedim; ++i)
       {
@@ -348,7 +360,7 @@ namespace Nacre
       }
     openings_[t].functions =
       std::make_shared<const TipFunctions>(frame, fields, cell->diameter());
-    return std::max(tangential.residual, normal.residual) < largest_residual;
+    return fits;
   }
 
   void
@@ -510,8 +522,8 @@ namespace Nacre
       for (unsigned int k = 0; k < opening.copies.size(); ++k)
         for (unsigned int i = 0; i < spacedim; ++i)
           {
-            const auto  line          = opening.first_dof + spacedim * k + i;
-            const auto &e             = opening.functions->tip().axes[i];
+            const auto line           = opening.first_dof + spacedim * k + i;
+            const auto e              = opening.functions->direction(i);
             const auto &[here, other] = opening.copies[k];
             constraints.add_line(line);
             for (unsigned int c = 0; c < spacedim; ++c)

@@ -51,9 +51,12 @@ namespace Nacre
       {
         Patch &patch    = patches_[t];
         patch.functions = std::make_shared<const TipFunctions>(
-          TipFunctions::branch_functions(patch.frame,
-                                         patch.poissons_ratio,
-                                         patch.size));
+          cuts.tips_turn ? TipFunctions::branch_scalars(patch.frame,
+                                                        patch.poissons_ratio,
+                                                        patch.size) :
+                           TipFunctions::branch_functions(patch.frame,
+                                                          patch.poissons_ratio,
+                                                          patch.size));
         make_path(lines, cuts.tip_radius + 8. * patch.size, t);
       }
     check_bends(cuts);
@@ -325,10 +328,11 @@ namespace Nacre
   {
     const auto me =
       Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
-    return TipFunctions::n_branch_functions *
-           std::count_if(patches_.begin(),
-                         patches_.end(),
-                         [&](const Patch &patch) { return patch.owner == me; });
+    unsigned int n = 0;
+    for (const Patch &patch : patches_)
+      if (patch.owner == me)
+        n += patch.functions->size();
+    return n;
   }
 
   void
@@ -410,7 +414,7 @@ namespace Nacre
     find_sides_of_nodes(parts);
     std::vector<unsigned int> n_of_rank(ends.size(), 0);
     for (const Patch &patch : patches_)
-      n_of_rank[patch.owner] += TipFunctions::n_branch_functions;
+      n_of_rank[patch.owner] += patch.functions->size();
     std::vector<Dof> next(ends);
     for (unsigned int rank = 0; rank < ends.size(); ++rank)
       next[rank] -= n_of_rank[rank];
@@ -418,7 +422,7 @@ namespace Nacre
     for (Patch &patch : patches_)
       {
         patch.first_dof = next[patch.owner];
-        next[patch.owner] += TipFunctions::n_branch_functions;
+        next[patch.owner] += patch.functions->size();
         dofs_.add_range(patch.first_dof, next[patch.owner]);
       }
     dofs_.compress();
@@ -434,8 +438,7 @@ namespace Nacre
               {
                 enrichment->shares.push_back(
                   make_share(t, part, parts.is_cut(cell)));
-                for (unsigned int k = 0; k < TipFunctions::n_branch_functions;
-                     ++k)
+                for (unsigned int k = 0; k < patches_[t].functions->size(); ++k)
                   dofs.push_back(patches_[t].first_dof + k);
               }
           if (dofs.empty())
@@ -466,12 +469,14 @@ namespace Nacre
             for (unsigned int k = 0; k < rest.size(); ++k)
               rest[k] -= line.weights[a] * F[k];
           }
+        const bool scalars = patch.functions->are_scalars();
         for (unsigned int k = 0; k < rest.size(); ++k)
           for (unsigned int c = 0; c < spacedim; ++c)
-            if (rest[k][c] != 0.)
+            if (const double entry = rest[k][scalars ? 0 : c]; entry != 0.)
               constraints.add_entry(line.dofs[c],
-                                    patch.first_dof + k,
-                                    rest[k][c]);
+                                    patch.first_dof +
+                                      (scalars ? spacedim * k + c : k),
+                                    entry);
       }
   }
 } // namespace Nacre

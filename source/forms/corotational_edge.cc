@@ -40,7 +40,6 @@ namespace Nacre
     const Vector<double>                  &u,
     LocalTerms                            &terms)
   {
-    const unsigned int n_nodes = edge.shapes(0).n_nodes();
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       extract_nodes(edge, s, u, edge_u_[s]);
     in_step_ = false;
@@ -59,7 +58,7 @@ namespace Nacre
         terms.energies.edge += edge_point_.energy();
         for (unsigned int s = 0; s < edge.n_sides(); ++s)
           {
-            force_.assign(n_nodes, Tensor<1, spacedim>());
+            force_.assign(edge_u_[s].size(), Tensor<1, spacedim>());
             edge_point_.add_force(s, force_);
             add_edge_residual(edge, s, terms);
             if (section_.is_coupled())
@@ -163,14 +162,13 @@ namespace Nacre
     const Vector<double>                  &u_end,
     LocalTerms                            &terms)
   {
-    in_step_                   = true;
-    const unsigned int n_nodes = edge.shapes(0).n_nodes();
+    in_step_ = true;
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       {
         extract_nodes(edge, s, u_start, ends_edge_u_[0][s]);
         extract_nodes(edge, s, u_end, ends_edge_u_[1][s]);
-        edge_u_[s].resize(n_nodes);
-        for (unsigned int a = 0; a < n_nodes; ++a)
+        edge_u_[s].resize(ends_edge_u_[0][s].size());
+        for (unsigned int a = 0; a < edge_u_[s].size(); ++a)
           edge_u_[s][a] = 0.5 * (ends_edge_u_[0][s][a] + ends_edge_u_[1][s][a]);
       }
     evaluate_edge_membrane(edge);

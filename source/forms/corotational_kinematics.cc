@@ -92,6 +92,7 @@ namespace Nacre
                                          LocalTerms           &terms)
   {
     in_step_ = false;
+    reinit_frames(part);
     extract_nodes(full_points_.values, u, u_);
     add_cell(part, terms);
   }
@@ -103,6 +104,7 @@ namespace Nacre
                                               LocalTerms           &terms)
   {
     in_step_ = true;
+    reinit_frames(part);
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
     u_.resize(ends_u_[0].size());
@@ -112,17 +114,23 @@ namespace Nacre
   }
 
   void
-  CorotationalKinematics::add_cell(const CellPart &part, LocalTerms &terms)
+  CorotationalKinematics::reinit_frames(const CellPart &part)
   {
     ShellCellValues &values  = full_points_.values;
     const bool       was_cut = values.is_cut();
     values.reinit_frames(part);
     if (values.is_cut() || was_cut)
       full_points_.number_membrane_rows();
-    const double share = reduced_points_.has_value() ?
-                           full_integration_share(values, section_) :
-                           1.;
-    const bool   both  = share < 1.;
+  }
+
+  void
+  CorotationalKinematics::add_cell(const CellPart &part, LocalTerms &terms)
+  {
+    const ShellCellValues &values = full_points_.values;
+    const double           share  = reduced_points_.has_value() ?
+                                      full_integration_share(values, section_) :
+                                      1.;
+    const bool             both   = share < 1.;
     full_points_.stiffness.reinit(values, section_, share);
     full_points_.held = held_forces(values, section_, {{share, 1.}}, instant_);
     force_.assign(u_.size(), Vector3());

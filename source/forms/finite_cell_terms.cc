@@ -74,6 +74,7 @@ namespace Nacre
                        const Vector<double> &u,
                        LocalTerms           &terms)
   {
+    full_points_.values.reinit_frames(part);
     extract_nodes(full_points_.values, u, u_);
     add_terms(part, false, terms);
   }
@@ -86,6 +87,7 @@ namespace Nacre
   {
     Assert(full_points_.cell.measure() == StrainMeasure::green,
            ExcNotImplemented());
+    full_points_.values.reinit_frames(part);
     extract_nodes(full_points_.values, u_start, ends_u_[0]);
     extract_nodes(full_points_.values, u_end, ends_u_[1]);
     add_terms(part, true, terms);
@@ -144,11 +146,10 @@ namespace Nacre
                              const bool      in_step,
                              LocalTerms     &terms)
   {
-    const auto &values = full_points_.values;
-    full_points_.values.reinit_frames(part);
-    const double share = reduced_points_.has_value() ?
-                           full_integration_share(values, section_) :
-                           1.;
+    const auto  &values = full_points_.values;
+    const double share  = reduced_points_.has_value() ?
+                            full_integration_share(values, section_) :
+                            1.;
     force_.assign(values.shapes().n_nodes(), Vector3());
     const auto add_points = [&](CellPoints &points, const double factor) {
       evaluate(part, points, factor, in_step);

@@ -156,14 +156,13 @@ namespace Nacre
                          dealii::Vector<double>                     &residual,
                          FullMatrix<double> *tangent) const
   {
-    const auto &M         = cell_matrices_[part.index()];
-    const auto &node_dofs = discretization_.node_dofs();
+    const auto &M = cell_matrices_[part.index()];
     for (unsigned int a = 0; a < M.m(); ++a)
       for (unsigned int b = 0; b < M.n(); ++b)
         for (unsigned int c = 0; c < spacedim; ++c)
           {
-            const unsigned int i = node_dofs[spacedim * a + c];
-            const unsigned int j = node_dofs[spacedim * b + c];
+            const unsigned int i = discretization_.local_dof(a, c);
+            const unsigned int j = discretization_.local_dof(b, c);
             residual[i] += M(a, b) * w(dofs[j]);
             if (tangent != nullptr)
               (*tangent)(i, j) += factor * M(a, b);

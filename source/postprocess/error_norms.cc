@@ -89,7 +89,7 @@ namespace Nacre
           u_[i] = shell_.displacement(dofs_[i]);
 
         exact_.clear();
-        if (part.is_cut() || values_.n_tip_functions() > 0)
+        if (part.is_cut() || part.enrichment() != nullptr)
           add_part();
         else
           {

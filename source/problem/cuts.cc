@@ -373,11 +373,12 @@ namespace Nacre
                   "harmonic function, normal ones by a biharmonic one; "
                   "'harmonic, all components': harmonic ones for all, whose "
                   "bending energy is infinite but for the quadrature. Both are "
-                  "for Kinematics = linear on quadrilaterals, with the direct "
-                  "solver. 'branch functions': the singular "
-                  "fields of Williams around the tip's very place are added, "
-                  "with coefficients of their own; for Kinematics = linear and "
-                  "a homogeneous isotropic section, with the direct solver.",
+                  "for quadrilaterals, with the direct solver; in large "
+                  "rotations 'harmonic' takes the biharmonic one for all. "
+                  "'branch functions': the singular fields of Williams around "
+                  "the tip's very place are added, with coefficients of their "
+                  "own, vectors in large rotations; for a homogeneous "
+                  "isotropic section, with the direct solver.",
                   prm);
     add_parameter("Tip radius",
                   tip_radius_,

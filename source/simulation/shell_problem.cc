@@ -186,6 +186,7 @@ namespace Nacre
                                 constants);
     if (!problem.path.is_linear())
       model.load_factor = std::move(load_factor);
+    model.cuts.tips_turn = takes_finite_rotations(problem);
     problem.growth =
       growth_.make(constants,
                    model.cuts,
@@ -216,32 +217,31 @@ namespace Nacre
     return result;
   }
 
+  bool
+  ProblemParameters::takes_finite_rotations(const ShellProblem &problem)
+  {
+    const PrestressKind prestress = problem.modes.prestress;
+    return problem.model.kinematics.model != KinematicsModel::linear ||
+           (seeks_modes(problem.path.type) &&
+            (prestress == PrestressKind::forces_and_moments ||
+             prestress == PrestressKind::tangent));
+  }
+
   void
   ProblemParameters::check_tips(const ShellProblem &problem)
   {
     if (problem.model.cuts.tips == CutTips::closed)
       return;
-    const KinematicsOptions &options = problem.model.kinematics;
     const std::string tips = "'" + name_of(problem.model.cuts.tips) + "'";
-    AssertThrow(options.model == KinematicsModel::linear &&
-                  options.edge_form == EdgeForm::rotation_jump,
+    AssertThrow(problem.model.kinematics.edge_form == EdgeForm::rotation_jump,
                 ExcMessage("Cuts/Tips: " + tips +
-                           " is for 'Kinematics = linear' and 'Edge form = "
-                           "rotation jump'; choose 'closed'."));
+                           " is for 'Edge form = rotation jump'; choose "
+                           "'closed'."));
     AssertThrow(problem.model.cuts.tips == CutTips::branch_functions ||
                   problem.model.element.type != ElementType::triangle,
                 ExcMessage("Cuts/Tips: " + tips +
                            " is for quadrilaterals; choose 'closed' or "
                            "'branch functions' for triangles."));
-    const PrestressKind prestress = problem.modes.prestress;
-    AssertThrow(!seeks_modes(problem.path.type) ||
-                  (prestress != PrestressKind::forces_and_moments &&
-                   prestress != PrestressKind::tangent),
-                ExcMessage("Analysis/Prestress: '" + name_of(prestress) +
-                           "' takes finite rotations, which know no 'Cuts/Tips "
-                           "= " +
-                           name_of(problem.model.cuts.tips) +
-                           "'; choose 'linear', or tips that are 'closed'."));
     AssertThrow(!problem.growth.is_on() || !problem.path.is_dynamic(),
                 ExcMessage("Growth/Tips: in motions cuts with 'Cuts/Tips = " +
                            name_of(problem.model.cuts.tips) +

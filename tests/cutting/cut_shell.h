@@ -48,6 +48,7 @@ namespace CutShells
              const CutTips                tips       = CutTips::closed)
       : parameters(text)
       , tips(tips)
+      , kinematics(options)
     {
       const auto &model = parameters.model;
       make_discretization(
@@ -58,7 +59,6 @@ namespace CutShells
         curves);
       for (const auto &point : refined_at)
         refine(point, element, curves);
-      KinematicsOptions kinematics = options;
       if (element.type == ElementType::serendipity)
         kinematics.membrane_strain = MembraneStrain::reduced;
       assembly = std::make_unique<Assembly>(*discretization,
@@ -79,6 +79,7 @@ namespace CutShells
       Cuts cuts;
       cuts.curves         = curves;
       cuts.tips           = tips;
+      cuts.tips_turn      = kinematics.model != KinematicsModel::linear;
       cuts.poissons_ratio = [](const auto &, const auto &, const auto &) {
         return 0.3;
       };
@@ -160,6 +161,7 @@ namespace CutShells
 
     TextModel                       parameters;
     const CutTips                   tips;
+    KinematicsOptions               kinematics;
     std::unique_ptr<Discretization> discretization;
     std::unique_ptr<Assembly>       assembly;
   };

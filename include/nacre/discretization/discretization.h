@@ -256,6 +256,17 @@ namespace Nacre
       return node_dofs_;
     }
 
+    /**
+     * Local dof of the component @p c of the shape function @p a, that of a
+     * node or one of the scalar functions of tips, which follow them.
+     */
+    unsigned int
+    local_dof(const unsigned int a, const unsigned int c) const
+    {
+      const unsigned int k = spacedim * a + c;
+      return k < node_dofs_.size() ? node_dofs_[k] : k;
+    }
+
     const IndexSet &
     locally_owned_dofs() const;
 

@@ -29,6 +29,9 @@ namespace Nacre
    *
    *   psi_ai = N_a psi_i e_i  or  N_a (1 - psi_i) e_i.
    *
+   * Functions of a tip that are scalars, TipFunctions, are shape functions as
+   * those of nodes are, and have vectors c_k.
+   *
    * The psi_k vanish at the nodes. Their scalar dofs c_k (length) belong to the
    * tip and are those of all its parts; they follow the nodes' dofs.
    */
@@ -64,6 +67,7 @@ namespace Nacre
       unsigned int cut    = numbers::invalid_unsigned_int;
       bool         at_end = false;
 
+      /** Of the coefficients c_k, three for each scalar function. */
       unsigned int
       n_functions() const
       {
@@ -83,8 +87,16 @@ namespace Nacre
       return n;
     }
 
+    /** Whether the functions are scalars, of all tips or of none. */
+    bool
+    has_scalars() const
+    {
+      return shares.front().functions->are_scalars();
+    }
+
     /**
-     * The functions psi_k at a point, appended to @p result.
+     * The functions psi_k at a point, appended to @p result; f_k e_x of scalar
+     * ones.
      * @param q the point's number in @p shapes and @p geometry
      * @param lip of a point on a lip in the cell that holds the tip, which is
      *   on its left: CutLip::along

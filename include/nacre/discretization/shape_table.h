@@ -5,6 +5,7 @@
 #define nacre_discretization_shape_table_h
 
 #include <nacre/base/types.h>
+#include <nacre/discretization/tip_functions.h>
 #include <nacre/mechanics/surface_frame.h>
 
 #include <deal.II/base/array_view.h>
@@ -36,6 +37,14 @@ namespace Nacre
     ShapeTable(const FiniteElement<dim, spacedim> &fe,
                const std::vector<Point<dim>>      &points);
 
+    /**
+     * Let scalar functions of tips follow the nodes' functions.
+     * @param functions times e_x, [point][function]
+     */
+    void
+    append_functions(const std::vector<FieldDerivatives> &functions);
+
+    /** Of the shape functions: those of nodes, and those of tips behind. */
     unsigned int
     n_nodes() const
     {

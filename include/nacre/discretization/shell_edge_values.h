@@ -97,6 +97,7 @@ namespace Nacre
       return rule().size();
     }
 
+    /** Those that aren't scalars; these are among the shapes(). */
     unsigned int
     n_tip_functions(const unsigned int side) const
     {
@@ -224,7 +225,7 @@ namespace Nacre
     tying_frames(const unsigned int side) const;
     //@}
 
-    /** Index within dof_indices() of a side's node and component. */
+    /** Index within dof_indices() of a side's shape function and component. */
     unsigned int
     dof(const unsigned int side,
         const unsigned int a,
@@ -349,6 +350,14 @@ namespace Nacre
     /** Number the dofs of both sides, shared ones once. */
     void
     join_dofs();
+
+    /** Number those of the tips on the side 1. */
+    void
+    join_tip_dofs();
+
+    /** Those of scalar functions are dofs of shape functions. */
+    void
+    move_scalar_dofs();
 
     const Discretization &discretization_;
     const Quadrature<1>   quadrature_;

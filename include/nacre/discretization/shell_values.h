@@ -104,9 +104,10 @@ namespace Nacre
     unsigned int
     n_dofs() const
     {
-      return discretization_.node_dofs().size() + n_tip_functions_;
+      return discretization_.node_dofs().size() + n_functions_;
     }
 
+    /** Those that aren't scalars; these are among the shapes(). */
     unsigned int
     n_tip_functions() const
     {
@@ -159,11 +160,11 @@ namespace Nacre
       return tables().shapes;
     }
 
-    /** Local dof of the component @p c of the node @p a. */
+    /** Local dof of the component @p c of the shape function @p a. */
     unsigned int
     dof(const unsigned int a, const unsigned int c) const
     {
-      return discretization_.node_dofs()[spacedim * a + c];
+      return discretization_.local_dof(a, c);
     }
 
     /** Where the membrane strain is sampled: at the points if untied. */
@@ -239,6 +240,9 @@ namespace Nacre
     evaluate(const CellPart &part);
 
     void
+    evaluate_tip_functions(const PartEnrichment &enrichment);
+
+    void
     fill_membrane_rows();
 
     void
@@ -267,6 +271,8 @@ namespace Nacre
     GeometryTable::Values tying_geometry_;
     types::material_id    material_id_ = 0;
 
+    /** Of the dofs of tips, and of their functions that aren't scalars. */
+    unsigned int                  n_functions_     = 0;
     unsigned int                  n_tip_functions_ = 0;
     std::vector<FieldDerivatives> tip_functions_;
 

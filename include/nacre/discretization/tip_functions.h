@@ -29,6 +29,11 @@ namespace Nacre
   /**
    * Displacements F_k around a crack's tip, functions of x = (X - X_tip) . e_1
    * and y = (X - X_tip) . e_2, whose components are those along the tip's axes.
+   *
+   * Or scalar functions f_k of x and y, each of which stands for the three
+   * displacements f_k e_x, f_k e_y, f_k e_z along the axes of space: their
+   * coefficients are a vector, as those of a node are, and their span is that
+   * of the same functions after any rotation.
    */
   class TipFunctions
   {
@@ -42,9 +47,6 @@ namespace Nacre
       std::array<Tensor<1, 3>, 3> axes;
     };
 
-    /** Those of branch_functions(). */
-    static constexpr unsigned int n_branch_functions = 8;
-
     /**
      * The singular ones: Williams' membrane and bending fields of the orders
      * n = 1 and 3, symmetric and antisymmetric. They are scaled such that they
@@ -55,6 +57,17 @@ namespace Nacre
                      const double poissons_ratio,
                      const double length);
 
+    /**
+     * The scalar functions that span, times vectors, those of
+     * branch_functions() after any rotation: r^(n/2) times the cosine and the
+     * sine of n theta/2 and (n/2 - 2) theta, n = 1 and 3, among which are
+     * Williams' deflections w of the order n = 1, and w of the order 3.
+     */
+    static TipFunctions
+    branch_scalars(const Tip   &tip,
+                   const double poissons_ratio,
+                   const double length);
+
     /** @param length size of the cell */
     TipFunctions(const Tip                        &tip,
                  const std::vector<WilliamsField> &fields,
@@ -64,10 +77,39 @@ namespace Nacre
       , fields_(fields)
     {}
 
+    /** Scalar functions; @param length size of the cell */
+    TipFunctions(const Tip                      &tip,
+                 const std::vector<PolarSeries> &scalars,
+                 const double                    length);
+
+    /** Whether they are scalar functions. */
+    bool
+    are_scalars() const
+    {
+      return are_scalars_;
+    }
+
+    /** Of the fields F_k, or of the scalars f_k. */
+    unsigned int
+    n_fields() const
+    {
+      return fields_.size();
+    }
+
+    /** Of the coefficients. */
     unsigned int
     size() const
     {
-      return fields_.size();
+      return (are_scalars_ ? 3 : 1) * n_fields();
+    }
+
+    /** The direction of the component @p i of the fields. */
+    Tensor<1, 3>
+    direction(const unsigned int i) const
+    {
+      Tensor<1, 3> e;
+      e[i] = 1.;
+      return are_scalars_ ? e : tip_.axes[i];
     }
 
     const Tip &
@@ -77,9 +119,9 @@ namespace Nacre
     }
 
     /**
-     * The values of all functions. @p side is positive on the sheet of the
-     * crack's left lip, negative on that of its right one, where theta goes on
-     * beyond half a turn; 0: theta as it is.
+     * The values of all fields; f_k e_x of scalars. @p side is positive on the
+     * sheet of the crack's left lip, negative on that of its right one, where
+     * theta goes on beyond half a turn; 0: theta as it is.
      */
     std::vector<Tensor<1, 3>>
     values(const Point<3> &position, const int side) const;
@@ -100,13 +142,14 @@ namespace Nacre
     Tensor<1, 3>
     in_space(const Tensor<1, 3> &components) const
     {
-      return components[0] * tip_.axes[0] + components[1] * tip_.axes[1] +
-             components[2] * tip_.axes[2];
+      return components[0] * direction(0) + components[1] * direction(1) +
+             components[2] * direction(2);
     }
 
     Tip                        tip_;
     double                     length_;
     std::vector<WilliamsField> fields_;
+    bool                       are_scalars_ = false;
   };
 } // namespace Nacre
 

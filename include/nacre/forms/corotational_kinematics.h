@@ -147,6 +147,10 @@ namespace Nacre
     };
 
     /** The terms at u_; if in_step_, of the step of which u_ is the mean. */
+    /** Of full_points_, of which the rest of add_cell() is. */
+    void
+    reinit_frames(const CellPart &part);
+
     void
     add_cell(const CellPart &part, LocalTerms &terms);
 

@@ -74,6 +74,11 @@ namespace Nacre
      */
     double tip_radius = 0.;
     /**
+     * Whether the tips' functions are to span themselves after any rotation,
+     * for kinematics of finite rotations: TipFunctions of scalars.
+     */
+    bool tips_turn = false;
+    /**
      * Poisson's ratio at a tip, on which tips' functions depend. It throws if
      * the section has none and they are branch functions. Axes e_1, e_2:
      * tangent, orthogonal, of length 1.

@@ -144,6 +144,10 @@ namespace Nacre
     static void
     check_section(const ShellProblem &problem);
 
+    /** Whether functions of the tips of cuts are to turn. */
+    static bool
+    takes_finite_rotations(const ShellProblem &problem);
+
     /** What the tips of cuts may have functions in. */
     static void
     check_tips(const ShellProblem &problem);

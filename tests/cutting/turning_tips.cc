@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the Nacre authors
+
+// Functions of tips in large rotations: a shell that is deformed and then
+// turned by a finite rotation, the functions' coefficients with it, has the
+// same energy and the turned forces; forces and tangents are derivatives.
+
+#include "cut_shell.h"
+
+#include <random>
+
+using namespace CutShells;
+
+namespace
+{
+  /** A doubly curved shell with a tip and parts that follow others. */
+  CutShell
+  cracked_shell(const KinematicsModel model, const CutTips tips)
+  {
+    // Harmonic functions need a tip away from edges of its cell.
+    const double v = tips == CutTips::branch_functions ? .44 : .5;
+    return CutShell(surface_text("u + 0.05*v^2, v, 0.15*u^2 + 0.1*cos(2*v + u)",
+                                 6,
+                                 5,
+                                 "-1, 1",
+                                 section_text(100., .3, .2)),
+                    {ElementType::lagrange, 2},
+                    {line("cut", {{-1.1, v}, {.16, v}})},
+                    {MembraneStrain::tied,
+                     EdgeForm::rotation_jump,
+                     model,
+                     TangentType::consistent},
+                    {},
+                    tips);
+  }
+
+  /** Small numbers, the same ones each time. */
+  TrilinosVector
+  some_displacement(const Discretization &discretization)
+  {
+    std::mt19937                           engine(4);
+    std::uniform_real_distribution<double> number(-2e-3, 2e-3);
+    auto                                   u = zero_vector(discretization);
+    for (unsigned int i = 0; i < discretization.n_dofs(); ++i)
+      u(i) = number(engine);
+    u.compress(VectorOperation::insert);
+    discretization.node_constraints().distribute(u);
+    return u;
+  }
+
+  /** @p use(i, a, x) for the first dof i of each vector a, x its place. */
+  template <typename Use>
+  void
+  for_each_vector(const Discretization &discretization, const Use &use)
+  {
+    std::vector<types::global_dof_index> dofs;
+    for (const CellPart &part : discretization.owned_parts())
+      {
+        discretization.get_dof_indices(part, dofs);
+        const auto nodes = discretization.node_positions(part);
+        for (unsigned int a = 0; a < dofs.size() / 3; ++a)
+          {
+            // The coefficients of functions have no place.
+            const Point<3> X = a < nodes.size() ? nodes[a] : Point<3>();
+            use({{dofs[discretization.local_dof(a, 0)],
+                  dofs[discretization.local_dof(a, 1)],
+                  dofs[discretization.local_dof(a, 2)]}},
+                Vector3(X));
+          }
+      }
+  }
+
+  using Dofs3 = std::array<types::global_dof_index, 3>;
+
+  Vector3
+  vector_at(const TrilinosVector &v, const Dofs3 &dofs)
+  {
+    return Vector3{{v(dofs[0]), v(dofs[1]), v(dofs[2])}};
+  }
+
+  std::string
+  label(const KinematicsModel model, const CutTips tips)
+  {
+    return name_of(model) + ", " + name_of(tips);
+  }
+
+  void
+  test_rotation(const KinematicsModel model, const CutTips tips)
+  {
+    const CutShell shell  = cracked_shell(model, tips);
+    const auto    &space  = *shell.discretization;
+    const auto     u      = some_displacement(space);
+    const auto     motion = rigid_motion(Vector3{{1.9, -1.2, .8}}, Vector3());
+    const auto     turned = [&](const Vector3 &x) {
+      return Vector3(x + motion(Point<3>(x)));
+    };
+    auto v = zero_vector(space), rigid = v, f_u = v, f_v = v, f_rigid = v;
+    for_each_vector(space, [&](const Dofs3 &dofs, const Vector3 &X) {
+      const Vector3 x = turned(X + vector_at(u, dofs)) - X;
+      const Vector3 r = turned(X) - X;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          v(dofs[c])     = x[c];
+          rigid(dofs[c]) = r[c];
+        }
+    });
+    v.compress(VectorOperation::insert);
+    rigid.compress(VectorOperation::insert);
+    const auto name = label(model, tips);
+
+    auto followed = v;
+    space.node_constraints().distribute(followed);
+    followed -= v;
+    check_below(name + ": followers turn", followed.linfty_norm(), 1e-12);
+    unsigned int n_functions = 0;
+    for (const CellPart &part : space.owned_parts())
+      if (part.enrichment() != nullptr)
+        n_functions = std::max(n_functions, part.enrichment()->n_functions());
+    check_above(name + ": functions", n_functions, 8);
+
+    shell.assembly->residual(u, f_u);
+    shell.assembly->residual(v, f_v);
+    shell.assembly->residual(rigid, f_rigid);
+    double       error = 0.;
+    const double scale = f_u.linfty_norm();
+    for_each_vector(space, [&](const Dofs3 &dofs, const Vector3 &) {
+      const Vector3 f = turned(vector_at(f_u, dofs));
+      error           = std::max(error, (vector_at(f_v, dofs) - f).norm());
+    });
+    const double U = shell.assembly->energies(u).total();
+    const double V = shell.assembly->energies(v).total();
+    check_below(name + ": force after a rotation", error / scale, 1e-9);
+    check_below(name + ": energy after it", std::abs(V / U - 1.), 1e-9);
+    check_below(name + ": force of a rotation over E h",
+                f_rigid.linfty_norm() / (100. * .2),
+                1e-11);
+  }
+
+  void
+  test_derivatives(const CutTips tips)
+  {
+    const CutShell shell = cracked_shell(KinematicsModel::finite, tips);
+    const auto    &space = *shell.discretization;
+    const auto     u     = some_displacement(space);
+    // Another direction; the constraints hold along it.
+    auto       du   = zero_vector(space);
+    const auto size = space.n_dofs();
+    for (unsigned int i = 0; i < size; ++i)
+      du(i) = u((7 * i + 3) % size);
+    du.compress(VectorOperation::insert);
+    const auto &constraints = space.node_constraints();
+    constraints.distribute(du);
+    const double t     = 1e-4;
+    auto         force = zero_vector(space), f_1 = force, f_2 = force;
+    shell.assembly->residual(u, force);
+    const auto moved = [&](const double factor) {
+      auto v = u;
+      v.add(factor * t, du);
+      return v;
+    };
+    const double W = (8. * (shell.assembly->energies(moved(1.)).total() -
+                            shell.assembly->energies(moved(-1.)).total()) -
+                      shell.assembly->energies(moved(2.)).total() +
+                      shell.assembly->energies(moved(-2.)).total()) /
+                     (12. * t);
+    check_below(name_of(tips) + ": force is the energy's derivative",
+                std::abs(force * du - W) / (force.l2_norm() * du.l2_norm()),
+                1e-9);
+
+    shell.assembly->residual(moved(1.), f_1);
+    shell.assembly->residual(moved(-1.), f_2);
+    f_1 -= f_2;
+    f_1 *= 1. / (2. * t);
+    TrilinosWrappers::SparseMatrix matrix;
+    auto                           load = force, K_du = force;
+    AffineConstraints<double>      none(space.locally_relevant_dofs());
+    none.close();
+    shell.assembly->reinit_matrix(none, matrix);
+    shell.assembly->assemble(u, none, matrix, load);
+    matrix.vmult(K_du, du);
+    f_1 -= K_du;
+    check_below(name_of(tips) + ": tangent is the force's derivative",
+                f_1.linfty_norm() / K_du.linfty_norm(),
+                1e-5);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const auto tips : {CutTips::branch_functions,
+                          CutTips::harmonic,
+                          CutTips::harmonic_all_components})
+    {
+      test_rotation(KinematicsModel::finite, tips);
+      test_derivatives(tips);
+    }
+  test_rotation(KinematicsModel::corotational, CutTips::branch_functions);
+  return n_failures > 0;
+}
