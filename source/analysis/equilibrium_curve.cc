@@ -223,6 +223,29 @@ namespace Nacre
     return "";
   }
 
+  std::string
+  EquilibriumCurve::move(PathState &state, double &size)
+  {
+    PathState start(state);
+    start.next_step = std::abs(size);
+    if (size < 0.)
+      start.motion.v *= -1.;
+    double      time    = state.time;
+    PathAttempt attempt = try_step(start, time);
+    while (!attempt.result.converged)
+      {
+        if (!step_control_.reject(start, start.next_step))
+          return attempt.result.reason;
+        attempt = try_step(start, time);
+      }
+    if (size < 0.)
+      attempt.motion.v *= -1.;
+    size       = std::copysign(start.next_step, size);
+    state.time = time;
+    std::move(attempt).accept(system_, state);
+    return "";
+  }
+
   PathAttempt
   EquilibriumCurve::try_step_to_end(const PathState &state, double &end)
   {

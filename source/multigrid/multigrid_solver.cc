@@ -9,6 +9,7 @@
 #include <nacre/multigrid/level_transfer.h>
 #include <nacre/multigrid/multigrid_solver.h>
 #include <nacre/multigrid/patch_smoother.h>
+#include <nacre/multigrid/subspace_correction.h>
 #include <nacre/multigrid/vertex_patches.h>
 #include <nacre/problem/shell_model.h>
 #include <nacre/solvers/direct_solver.h>
@@ -19,7 +20,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
+#include <set>
 
 namespace Nacre
 {
@@ -48,6 +51,37 @@ namespace Nacre
     }
 
     const unsigned int lowest_degree = 2;
+
+    /**
+     * Of the responses to the functions of tips, as Parameters::tolerance:
+     * smaller ones save an iteration or none.
+     */
+    constexpr double tip_tolerance = 0.1;
+
+    /** The unconstrained dofs of tips' functions, of all ranks. */
+    std::set<types::global_dof_index>
+    tip_function_dofs(const Discretization            &discretization,
+                      const AffineConstraints<double> &constraints)
+    {
+      std::vector<types::global_dof_index> dofs, mine;
+      const std::size_t n = discretization.node_dofs().size();
+      for (const CellPart &part : discretization.owned_parts())
+        if (part.enrichment() != nullptr)
+          {
+            discretization.get_dof_indices(part, dofs);
+            std::copy_if(dofs.begin() + n,
+                         dofs.end(),
+                         std::back_inserter(mine),
+                         [&](const auto i) {
+                           return !constraints.is_constrained(i);
+                         });
+          }
+      std::set<types::global_dof_index> all;
+      for (const auto &of_rank :
+           Utilities::MPI::all_gather(discretization.communicator(), mine))
+        all.insert(of_rank.begin(), of_rank.end());
+      return all;
+    }
 
     bool
     has_lower_degree(const Discretization &fine)
@@ -78,7 +112,9 @@ namespace Nacre
 
     LevelMatrix   matrix;
     PatchSmoother smoother;
-    Vector        x, b, r;
+    /** On the finest level only: the tips' functions. */
+    SubspaceCorrection at_tips;
+    Vector             x, b, r;
   };
 
 
@@ -144,6 +180,9 @@ namespace Nacre
     const Element                                              &element)
   {
     auto level = std::make_unique<Level>();
+    // Only the finest level has functions of tips.
+    Cuts cuts = model_.cuts;
+    cuts.tips = CutTips::closed;
     try
       {
         level->own_discretization =
@@ -151,7 +190,7 @@ namespace Nacre
                                            model_.midsurface,
                                            element,
                                            mapping_degree_,
-                                           model_.cuts);
+                                           cuts);
         level->own_discretization->set_coarse_level();
         level->conditions =
           std::make_unique<DisplacementConditions>(*level->own_discretization,
@@ -278,7 +317,36 @@ namespace Nacre
       }
     AssertThrow(is_definite,
                 ExcIterationFailed("the matrix is not positive definite"));
+    prepare_tips(system.constraints);
     return true;
+  }
+
+
+  void
+  MultigridSolver::prepare_tips(const AffineConstraints<double> &constraints)
+  {
+    Level              &level = *levels_[0];
+    std::vector<Vector> responses;
+    level.at_tips.reinit(level.matrix, {});
+    if (level.direct != nullptr)
+      return;
+    for (const auto dof : tip_function_dofs(*level.discretization, constraints))
+      {
+        Vector w(level.matrix.partitioner()), r(w), zero(w);
+        if (w.in_local_range(dof))
+          w(dof) = 1.;
+        w.update_ghost_values();
+        level.matrix.residual(r, w, zero);
+        w.zero_out_ghost_values();
+        const Vector b(r);
+        Vector       x(zero);
+        start(x, r);
+        iterate(x, r, b, tip_tolerance);
+        w += x;
+        w.update_ghost_values();
+        responses.push_back(w);
+      }
+    level.at_tips.reinit(level.matrix, std::move(responses));
   }
 
 
@@ -301,6 +369,15 @@ namespace Nacre
     level.to_coarser->prolongate_and_add(level.x, coarser.x);
     level.x.update_ghost_values();
     level.smoother.backward(level.x, level.b);
+  }
+
+
+  void
+  MultigridSolver::precondition()
+  {
+    Level &level = *levels_[0];
+    cycle(0);
+    level.at_tips.add_to(level.x, level.b);
   }
 
 
@@ -388,7 +465,7 @@ namespace Nacre
                     ExcIterationFailed("no convergence within " +
                                        std::to_string(k) + " iterations"));
         level.b.equ(1. / r_norm, r); // as in start()
-        cycle(0);
+        precondition();
         const double rz = (r * level.x) * r_norm;
         AssertThrow(std::isfinite(rz) && rz > 0.,
                     ExcIterationFailed(
@@ -486,7 +563,7 @@ namespace Nacre
   {
     Level &level = *levels_[0];
     copy_entries(level.b, b);
-    cycle(0);
+    precondition();
     copy_entries(x, level.x);
   }
 } // namespace Nacre

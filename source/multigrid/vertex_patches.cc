@@ -93,6 +93,13 @@ namespace Nacre
 
     std::vector<bool>                    is_done(corners.size(), false);
     std::vector<types::global_dof_index> part_dofs, patch;
+    // The functions of tips reach too far; MultigridSolver takes them.
+    const auto add_nodes = [&](const CellPart &part) {
+      discretization.get_dof_indices(part, part_dofs);
+      patch.insert(patch.end(),
+                   part_dofs.begin(),
+                   part_dofs.begin() + discretization.node_dofs().size());
+    };
     for (const CellPart &first_part : parts)
       if (first_part.cell->is_locally_owned())
         for (const unsigned int v : first_part.cell->vertex_indices())
@@ -107,11 +114,13 @@ namespace Nacre
               {
                 const CellPart &part = parts[corner.part];
                 is_mine &= (part.cell->subdomain_id() >= me);
-                discretization.get_dof_indices(part, part_dofs);
                 if (extent == PatchExtent::closed_star)
-                  patch.insert(patch.end(), part_dofs.begin(), part_dofs.end());
-                else
-                  add_dofs(part, corner.vertex, part_dofs, patch);
+                  {
+                    add_nodes(part);
+                    continue;
+                  }
+                discretization.get_dof_indices(part, part_dofs);
+                add_dofs(part, corner.vertex, part_dofs, patch);
               }
             if (is_mine)
               append(patch, constraints);
@@ -121,10 +130,7 @@ namespace Nacre
         patch.clear();
         for (const unsigned int vertex : vertices)
           for (const Corner &corner : corners[vertex])
-            {
-              discretization.get_dof_indices(parts[corner.part], part_dofs);
-              patch.insert(patch.end(), part_dofs.begin(), part_dofs.end());
-            }
+            add_nodes(parts[corner.part]);
         append(patch, constraints);
       }
 

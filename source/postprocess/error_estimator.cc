@@ -21,13 +21,6 @@ namespace Nacre
     using Vector3  = Tensor<1, spacedim>;
     using Tensor3  = Tensor<2, spacedim>;
     using Iterator = DoFHandler<dim, spacedim>::active_cell_iterator;
-
-    /** Height of the cell over its edge of the conormal @p n (length). */
-    double
-    height(const SurfaceFrame<> &frame, const Vector3 &n)
-    {
-      return 1. / std::hypot(frame.a_con[0] * n, frame.a_con[1] * n);
-    }
   } // namespace
 
   /** The residuals of one or two fields, and their products. */
@@ -141,7 +134,9 @@ namespace Nacre
       run_on_all_ranks(discretization_.communicator(), [&]() {
         for (const CellPart &part : discretization_.owned_parts())
           {
-            add_cell(part);
+            // Nothing is estimated where tips have functions.
+            if (part.enrichment() == nullptr)
+              add_cell(part);
             add_lips(part);
             if (part.data == nullptr || part.data->number == 0)
               for (const auto face : part.cell->face_indices())
@@ -354,6 +349,9 @@ namespace Nacre
     add_edge(const types::boundary_id id, const LineLoad &load)
     {
       const unsigned int n_sides = edge_.n_sides();
+      for (unsigned int side = 0; side < n_sides; ++side)
+        if (edge_.part(side).enrichment() != nullptr)
+          return;
       fill_tangents();
       std::vector<std::vector<Vector3>> tractions(fields_.size(),
                                                   std::vector<Vector3>(
@@ -503,7 +501,7 @@ namespace Nacre
       for (unsigned int side = 0; side < n_sides; ++side)
         {
           W += weight_of(edge_.part(side)) / n_sides;
-          h += height(edge_.frame(side, q), outward(side, q)) / n_sides;
+          h += cell_height(edge_.frame(side, q), outward(side, q)) / n_sides;
         }
       const Vector3 t   = normal_ / normal_.norm();
       const double  k   = resolved_wave_number(discretization_.degree()) / h;

@@ -88,4 +88,10 @@ namespace Nacre
         weight += mean[c][d] * outer_product(basis[c], basis[d]);
     return weight;
   }
+
+  double
+  cell_height(const SurfaceFrame<> &frame, const Tensor<1, 3> &n)
+  {
+    return 1. / std::hypot(frame.a_con[0] * n, frame.a_con[1] * n);
+  }
 } // namespace Nacre

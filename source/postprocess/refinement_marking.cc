@@ -85,6 +85,7 @@ namespace Nacre
           if (cell->is_locally_owned())
             is_near_[cell->active_cell_index()] =
               discretization.cell_parts().is_near_cut(cell);
+        add_cells_with_tip_functions(discretization);
         send_to_ghosts(mesh_, is_near_);
         const unsigned int        none = numbers::invalid_unsigned_int;
         std::vector<unsigned int> near_vertex(mesh_.n_vertices(), none);
@@ -134,6 +135,24 @@ namespace Nacre
       }
 
     private:
+      /** Functions of tips ask for one size, and for one cell more. */
+      void
+      add_cells_with_tip_functions(const Discretization &discretization)
+      {
+        if (!discretization.has_tip_functions())
+          return;
+        std::vector<bool> is_theirs(mesh_.n_vertices(), false);
+        for (const CellPart &part : discretization.relevant_parts())
+          if (part.enrichment() != nullptr)
+            for (const auto v : part.cell->vertex_indices())
+              is_theirs[part.cell->vertex_index(v)] = true;
+        for_each_cell([&](const auto &cell, const unsigned int k) {
+          for (const auto v : cell->vertex_indices())
+            if (is_theirs[cell->vertex_index(v)])
+              is_near_[k] = true;
+        });
+      }
+
       template <typename Function>
       void
       for_each_cell(const Function &use) const

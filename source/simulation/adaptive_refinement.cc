@@ -108,12 +108,13 @@ namespace Nacre
     AssertThrow(tip_size_ == 0. || !problem.model.cuts.is_empty(),
                 ExcMessage(section + "Cells at tips: there are no cuts "
                                      "(Cuts/Cuts); set it to 0."));
-    AssertThrow(problem.model.cuts.tips == CutTips::closed,
+    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
+                  problem.model.cuts.tips == CutTips::branch_functions,
                 ExcMessage(
                   section +
                   "Cycles: errors aren't estimated with 'Cuts/Tips = " +
                   name_of(problem.model.cuts.tips) +
-                  "'; set it to 0, or choose 'closed'."));
+                  "'; set it to 0, or choose 'closed' or 'branch functions'."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage(section +
                            "Cycles: cuts that grow (Growth/Tips) keep their "

@@ -411,11 +411,17 @@ namespace Nacre
       return;
     const PathParameters &path = problem.path;
     AssertThrow(path.is_linear() || path.type == AnalysisType::quasi_static ||
-                  path.type == AnalysisType::relaxation || path.is_dynamic(),
+                  path.type == AnalysisType::relaxation ||
+                  path.type == AnalysisType::arc_length || path.is_dynamic(),
                 ExcMessage(
                   "Growth/Tips: with 'Analysis/Type = " + name_of(path.type) +
-                  "' cuts don't grow; choose 'linear', 'static', 'relaxation' "
-                  "or 'dynamic', or 'Tips = none'."));
+                  "' cuts don't grow; choose 'linear', 'static', 'relaxation', "
+                  "'arc length' or 'dynamic', or 'Tips = none'."));
+    AssertThrow(!path.branches.has_several(),
+                ExcMessage("Analysis/Switch branch: several branches begin "
+                           "with the cuts of their points, which aren't kept "
+                           "where cuts grow (Growth/Tips); name one branch, or "
+                           "'none'."));
     AssertThrow(problem.growth.starting_cracks == 0 || !path.is_dynamic() ||
                   problem.growth.release_time,
                 ExcMessage(

@@ -126,13 +126,8 @@ namespace Nacre
     const SolverParameters &chosen = problem_.solver;
     const bool              can_coarsen =
       MultigridSolver::has_coarser_mesh(discretization_) &&
-      problem_.model.section->n_state_variables() == 0 &&
-      !discretization_.has_tip_functions();
-    if (chosen.type == SolverType::multigrid &&
-        discretization_.has_tip_functions())
-      log.warning("Linear solver/Solver: multigrid doesn't know the "
-                  "functions of Cuts/Tips; the direct solver is taken.");
-    else if (chosen.type == SolverType::multigrid && !can_coarsen)
+      problem_.model.section->n_state_variables() == 0;
+    if (chosen.type == SolverType::multigrid && !can_coarsen)
       log.warning(
         "Linear solver/Solver: the mesh is not refined from a coarser one, "
         "nor is there a coarser space than degree 2; the direct solver is "
@@ -141,6 +136,10 @@ namespace Nacre
     task.n_dofs             = discretization_.n_dofs();
     task.degree             = discretization_.degree();
     task.n_right_hand_sides = n_right_hand_sides;
+    // The eight functions of a tip cost as much as a solution.
+    if (discretization_.has_tip_functions() &&
+        discretization_.tip_openings() == nullptr)
+      task.n_right_hand_sides += discretization_.tips().size();
     task.n_levels = discretization_.triangulation().n_global_levels() - 1;
     task.memory   = free_memory(discretization_.communicator());
 

@@ -10,12 +10,14 @@
 #include <nacre/simulation/stepped_shell.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace Nacre
 {
   bool
-  PathRun::looks_at_tips(const PathState &state) const
+  PathRun::watches_tips(const PathState &state) const
   {
     if (!growth_.is_on())
       return false;
@@ -25,11 +27,49 @@ namespace Nacre
   }
 
   void
-  PathRun::observe_growth(const PathState &state)
+  PathRun::look_at_tips(const PathState &state)
   {
     const SolvedState solved(state, *stepped_);
     growth_.observe(solved.shell());
+  }
+
+  void
+  PathRun::record_growth(const PathState &state)
+  {
+    const SolvedState solved(state, *stepped_);
     growth_monitor_->observe(growth_, state.time, solved.shell());
+  }
+
+  std::string
+  PathRun::find_critical_state(PathState &state)
+  {
+    if (growth_.largest_drive() <= 0.)
+      return "no tip is left, or none is being opened.";
+    const auto   missing = [&]() { return growth_.critical_factor() - 1.; };
+    const auto  &v       = state.motion.v;
+    const double largest = problem_.path.maximum_time_step;
+    double       left    = missing();
+    // In a linear structure displacements are multiplied by that factor.
+    double size = left * std::abs(state.motion.u * v) / (v * v);
+    for (unsigned int k = 0; k < 40; ++k)
+      {
+        if (std::abs(left) <= 1e-7)
+          return "";
+        size                      = std::clamp(size, -largest, largest);
+        const std::string failure = stepped_->path.curve()->move(state, size);
+        if (!failure.empty())
+          return "no state nearby at which tips are just about to advance: " +
+                 failure + ".";
+        look_at_tips(state);
+        if (growth_.largest_drive() <= 0.)
+          return "no tip is being opened there.";
+        const double before = std::exchange(left, missing());
+        // G should rise forward.
+        const double slope = (left - before) / size;
+        size = slope < 0. ? -left / slope : std::copysign(size, left);
+      }
+    return "no state at which tips are just about to advance was found within "
+           "40 steps along the path.";
   }
 
   std::string
@@ -41,8 +81,39 @@ namespace Nacre
         // A tip that moves runs on after the next step in time.
         if (!failure.empty() || problem_.path.is_dynamic())
           return failure;
-        observe_growth(state);
+        look_at_tips(state);
+        record_growth(state);
       }
+    return "";
+  }
+
+  std::string
+  PathRun::grow_along_curve(const QuantitiesOfInterest &quantities,
+                            PathState                  &state)
+  {
+    if (is_critical_)
+      {
+        const std::string failure = grow_by_a_step(quantities, state);
+        if (!failure.empty())
+          return failure;
+        ++state.step;
+        look_at_tips(state);
+      }
+    PathState         critical(state);
+    const bool        is_due  = growth_.largest_drive() >= 1.;
+    const std::string failure = find_critical_state(critical);
+    const double      end     = problem_.path.end_time;
+    is_critical_ = failure.empty() && std::abs(critical.time) <= std::abs(end);
+    if (is_critical_)
+      state = critical;
+    else if (is_due)
+      return "growth step " + std::to_string(growth_.n_steps() + 1) + ": " +
+             (failure.empty() ? "tips advance beyond the End time only." :
+                                failure);
+    else
+      look_at_tips(state);
+    record_growth(state);
+    is_critical_ = is_critical_ && !growth_.has_ended();
     return "";
   }
 

@@ -332,10 +332,12 @@ namespace Nacre
       refines =
         n_refinements_ < adaptive_.n_cycles() && adaptive_.is_due(step.step);
       grows = false;
-      if (looks_at_tips(step))
+      if (watches_tips(step))
         {
-          observe_growth(step);
+          look_at_tips(step);
           grows = growth_.is_due(step.time);
+          if (!grows || !seeks_critical_state())
+            record_growth(step);
         }
       return refines || grows;
     };
@@ -344,14 +346,19 @@ namespace Nacre
     };
     while (true)
       {
-        refines = grows     = false;
-        std::string failure = stepped_->path.run(state, callbacks);
+        std::string failure;
+        refines = false;
+        grows   = is_critical_;
+        if (!is_critical_)
+          failure = stepped_->path.run(state, callbacks);
         if (!refines && !grows)
           return failure;
         if (refines)
           refine(quantities, state);
         if (grows)
-          failure = grow(quantities, state);
+          failure = seeks_critical_state() ?
+                      grow_along_curve(quantities, state) :
+                      grow(quantities, state);
         if (!failure.empty())
           return failure;
         callbacks.observe(state);

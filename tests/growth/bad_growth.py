@@ -87,8 +87,10 @@ case("growth_short_step", ["Growth/Step: at the tip 'slit end'", "too short"],
      args=(), Step="0.01")
 case("growth_of_modes", ["Growth/Tips", "'Analysis/Type = vibration'"],
      **{"Analysis/Type": "vibration"})
-case("growth_arc_length", ["Growth/Tips", "'Analysis/Type = arc length'",
-                           "'dynamic'"], **{"Analysis/Type": "arc length"})
+case("growth_buckling", ["Growth/Tips", "'Analysis/Type = buckling'",
+                         "'arc length'"], **{"Analysis/Type": "buckling"})
+case("growth_branches", ["Analysis/Switch branch", "Growth/Tips"],
+     **{"Analysis/Type": "arc length", "Analysis/Switch branch": "0, 1"})
 case("growth_release_in_statics",
      ["Growth/Release time", "'Analysis/Type = static'", "dynamic"],
      Release_time="0.1", **{"Analysis/Type": "static"})

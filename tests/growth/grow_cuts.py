@@ -162,6 +162,19 @@ def pulled(rows):
     check(rows[started]["U"] < rows[started - 1]["U"], "energy is released")
 
 
+def legs(rows):
+    """By arc length: G = G_c h, and what the J-integral of the edges says."""
+    critical = [row for row in rows if row["G_crack_end"] > .019]
+    check_near("critical states", len(critical), 2, 0)
+    for row in critical:
+        check_near("G", row["G_crack_end"], .02, 1e-7)
+        force = .001 * row["load_factor"]
+        sine = (row["o"] - row["i"]) / .2
+        check_near("2 F sin(theta)", 2. * force * sine, .02, .035 * .02)
+    loads = [row["load_factor"] for row in critical]
+    check(loads[0] > 1.1 * loads[1], "the load falls")
+
+
 UNIT = {"Study/Degrees": "2"}
 HOLE = {"Growth/Criterion": "strength", "Growth/Strength": "100",
         "Growth/Averaging distance": "0.2", "Growth/Starting cracks": "2",
@@ -192,6 +205,9 @@ CASES = {
         "L = 5, b = 1, a = 2, d = 0.3, Gc = 1", "Growth/Toughness": "",
         "Growth/Criterion": "prescribed", "Growth/Length": "1.05*t",
         "Growth/Step": "0.25", "Analysis/Time step": "0.5"}, (1, 2), knife),
+    "legs": ("double_cantilever.prm",
+             {**UNIT, "Growth/Maximum steps": "1",
+              "Analysis/Maximum steps": "4"}, (1,), legs),
     "short": ("short_crack.prm", {}, (1,), short),
     "kirsch": ("plate_with_hole.prm", HOLE, (1,), kirsch),
     "bent": ("starting_cracks.prm", BENT, (1,), bent),

@@ -53,6 +53,16 @@ namespace Nacre
            const std::optional<unsigned int> &max_iterations = {});
 
     /**
+     * Move @p state along the curve by a step of @p size (time, as
+     * PathState::next_step), backward if that is negative, or by less if that
+     * doesn't converge: @p size is then what it has become. Neither is that a
+     * step of the path, nor are points looked for. Returns "" or why it failed;
+     * @p state is unchanged then.
+     */
+    std::string
+    move(PathState &state, double &size);
+
+    /**
      * Make @p state, that of a bifurcation point, the start of the branch
      * @p number, whose sign is that of the mode along which it begins.
      */

@@ -151,9 +151,24 @@ namespace Nacre
     void
     assemble_coarse_levels(const LinearSystem &system);
 
+    /**
+     * The functions of tips c_k that only the finest level has, (C.4) of
+     * doc/cutting.md: w_k is the function with the approximate response of all
+     * other dofs, -A^-1 B e_k. Throws ExcIterationFailed.
+     */
+    void
+    prepare_tips(const AffineConstraints<double> &constraints);
+
     /** levels_[l].x = B levels_[l].b */
     void
     cycle(const unsigned int l);
+
+    /**
+     * The same on the finest level with the functions of tips, added as a
+     * subspace of its own.
+     */
+    void
+    precondition();
 
     void
     solve_coarsest();

@@ -38,6 +38,10 @@ namespace Nacre
   error_weight(const SurfaceFrame<>   &frame,
                const SectionStiffness &stiffness,
                const double            kappa);
+
+  /** Height of the cell over its edge of the conormal @p n (length). */
+  double
+  cell_height(const SurfaceFrame<> &frame, const Tensor<1, 3> &n);
 } // namespace Nacre
 
 #endif

@@ -124,11 +124,33 @@ namespace Nacre
      * dynamics not while lips are being released, whose forces G doesn't know.
      */
     bool
-    looks_at_tips(const PathState &state) const;
+    watches_tips(const PathState &state) const;
 
-    /** The state as growth sees it: the tips, a row in its table. */
+    /** The tips as growth finds them at @p state. */
     void
-    observe_growth(const PathState &state);
+    look_at_tips(const PathState &state);
+
+    /** A row for @p state, at which growth has looked, in growth's table. */
+    void
+    record_growth(const PathState &state);
+
+    /**
+     * Whether tips advance at equilibria with G = G_c h that are looked for
+     * along the curve, or when the strength is just reached.
+     */
+    bool
+    seeks_critical_state() const
+    {
+      return problem_.path.follows_curve() && !problem_.growth.is_prescribed();
+    }
+
+    /**
+     * Move @p state, at which growth has looked, along the curve to where the
+     * first one is about to: |CrackGrowth::critical_factor() - 1| <= 1e-7.
+     * Returns "", or why there is none. Growth looks at the last one tried.
+     */
+    std::string
+    find_critical_state(PathState &state);
 
     /**
      * Let the cuts grow at the @p state for as long as tips advance, each step
@@ -137,6 +159,15 @@ namespace Nacre
      */
     std::string
     grow(const QuantitiesOfInterest &quantities, PathState &state);
+
+    /**
+     * Make @p state the critical one, if tips would advance there; or, if it is
+     * critical, let the cuts grow by a step and make it that of the longer
+     * cuts. If that lies nowhere up to the End time, the state is the one near
+     * the last, from which the path goes on. Returns as grow().
+     */
+    std::string
+    grow_along_curve(const QuantitiesOfInterest &quantities, PathState &state);
 
     /**
      * Lengthen the cuts by a step. In dynamics returns how long the new lips
@@ -182,6 +213,8 @@ namespace Nacre
     double       assembly_seconds_     = 0.; // of the meshes before
     unsigned int n_refinements_        = 0;
     bool         has_warned_of_energy_ = false;
+    /** Whether the state is one from which the next step of growth begins. */
+    bool is_critical_ = false;
   };
 } // namespace Nacre
 
