@@ -157,7 +157,6 @@ main(int argc, char *argv[])
 
   test_refusal({"Discretization/Kinematics=linear", "Analysis/Type=linear"},
                "'linear' is for linear sections only");
-  test_refusal({"Discretization/Kinematics=corotational"}, "choose finite");
   test_refusal({"Analysis/Type=dynamic",
                 "Section/Density=1",
                 "Analysis/Scheme=energy momentum"},
