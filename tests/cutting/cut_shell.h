@@ -62,7 +62,7 @@ namespace CutShells
       if (element.type == ElementType::serendipity)
         kinematics.membrane_strain = MembraneStrain::reduced;
       assembly = std::make_unique<Assembly>(*discretization,
-                                            ShellParts(parameters.section,
+                                            ShellParts(*model.section,
                                                        model.supports,
                                                        model.loads,
                                                        kinematics,

@@ -348,7 +348,7 @@ test_clamped_coercivity()
 {
   const Panel        panel(true);
   const auto        &midsurface = panel.parameters.model.midsurface;
-  const auto        &section    = panel.parameters.section;
+  const auto        &section    = *panel.parameters.model.section;
   BoundaryConditions conditions;
   for (const auto *const edge : {"u=0", "u=1", "v=0", "v=1"})
     conditions.prescribe_rotation(midsurface.edge_ids(edge, "test"));

@@ -91,7 +91,7 @@ namespace
     energies(const TrilinosVector &u) const
     {
       const Assembly assembly(*discretization,
-                              ShellParts(parameters.section,
+                              ShellParts(*parameters.model.section,
                                          parameters.model.supports,
                                          parameters.model.loads,
                                          MembraneStrain::tied,

@@ -152,8 +152,9 @@ test_linearisations()
   const auto                  e   = vector(0.2, -0.5, 0.9);
   const auto                  whole =
     ShellStrain::bending(frame,
-                         {{dN[0] * e, dN[1] * e}},
-                         {{ddN[0] * e, ddN[1] * e, ddN[2] * e}});
+                         std::array<Vector3, 2>{{dN[0] * e, dN[1] * e}},
+                         std::array<Vector3, 3>{
+                           {ddN[0] * e, ddN[1] * e, ddN[2] * e}});
   const auto single = ShellStrain::bending_of_shape_function(frame, dN, ddN);
   check_below("bending strain of a shape function",
               (whole - (frame.t0 * e) * single).norm(),
