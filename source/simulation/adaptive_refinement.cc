@@ -115,6 +115,13 @@ namespace Nacre
                   "Cycles: errors aren't estimated with 'Cuts/Tips = " +
                   name_of(problem.model.cuts.tips) +
                   "'; set it to 0, or choose 'closed' or 'branch functions'."));
+    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
+                  !problem.model.cuts.tips_turn,
+                ExcMessage(section +
+                           "Cycles: in large rotations errors aren't estimated "
+                           "with 'Cuts/Tips = " +
+                           name_of(problem.model.cuts.tips) +
+                           "'; set it to 0, or choose 'closed'."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage(section +
                            "Cycles: cuts that grow (Growth/Tips) keep their "
