@@ -33,11 +33,11 @@ namespace Nacre
     return table;
   }
 
-  AdaptiveRefinement::AdaptiveRefinement()
+  AdaptiveRefinementParameters::AdaptiveRefinementParameters()
     : ParameterAcceptor("/Adaptive refinement")
   {
     add_parameter("Cycles",
-                  n_cycles_,
+                  values_.n_cycles_,
                   "How often at most to refine the mesh of "
                   "'Study/Refinements' where the estimated error is large; "
                   "each mesh is a row of the table, or goes on along the path. "
@@ -45,27 +45,27 @@ namespace Nacre
                   prm,
                   Patterns::Integer(0, 100));
     add_parameter("Estimator",
-                  estimator_,
+                  values_.estimator_,
                   "residual: the energy norm of the error, (2 energy)^1/2, "
                   "from residuals and jumps; goal: the error of one quantity, "
                   "by the dual solution.");
     add_parameter("Goal",
-                  goal_name_,
+                  values_.goal_name_,
                   "Name of a quantity of 'Quantities': a displacement at a "
                   "point, a reaction or the energy.");
     add_parameter("Marking",
-                  marking_,
+                  values_.marking_,
                   "Doerfler: the fewest cells that hold the fraction of the "
                   "estimate (of its square, for the energy norm); fixed "
                   "fraction: that fraction of the cells.");
     add_parameter("Fraction",
-                  fraction_,
+                  values_.fraction_,
                   "Fraction that 'Marking' takes, above 0 and at most 1; with "
                   "'fixed fraction' 1 refines all cells. Units: none.",
                   prm,
                   Patterns::Double());
     add_parameter("Cells at tips",
-                  tip_size_,
+                  values_.tip_size_,
                   "Each cycle refines the cells that hold a tip of a cut until "
                   "their longest edge is no longer than this, along with all "
                   "cells along that cut; 0: no more than the estimate says. "
@@ -73,34 +73,68 @@ namespace Nacre
                   prm,
                   Patterns::Double(0.));
     add_parameter("Max dofs",
-                  max_dofs_,
+                  values_.max_dofs_,
                   "A mesh that has more degrees of freedom isn't refined any "
                   "more. Units: none.",
                   prm,
                   Patterns::Integer(1));
     add_parameter("Tolerance",
-                  tolerance_,
+                  values_.tolerance_,
                   "An estimate of the energy norm below this fraction of that "
                   "of the solution, (2 energy)^1/2, isn't refined any more; 0: "
                   "no limit. Units: none.",
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Every steps",
-                  n_steps_,
+                  values_.n_steps_,
                   "Along a path the mesh is refined after every so many steps. "
                   "Units: none.",
                   prm,
                   Patterns::Integer(1));
   }
 
+  AdaptiveRefinement
+  AdaptiveRefinementParameters::make(
+    const ShellProblem         &problem,
+    const QuantitiesOfInterest &quantities) const
+  {
+    AdaptiveRefinement result = values_;
+    if (!result.is_on())
+      return result;
+    result.check(problem);
+    if (result.estimator_ == EstimatorType::residual)
+      return result;
+    const std::string       &goal_name = result.goal_name_;
+    std::vector<std::string> names;
+    for (const auto &quantity : quantities.quantities())
+      {
+        if (quantity.name == goal_name)
+          {
+            result.goal_index_ = names.size();
+            result.goal_       = quantity.goal;
+            result.reference_  = quantity.reference;
+          }
+        names.push_back(quantity.name);
+      }
+    AssertThrow(!goal_name.empty() && result.goal_index_,
+                ExcMessage(Text::unknown_name("Adaptive refinement/Goal",
+                                              "quantity",
+                                              goal_name,
+                                              names)));
+    AssertThrow(result.goal_.is_known(),
+                ExcMessage("Adaptive refinement/Goal: the quantity '" +
+                           goal_name +
+                           "' is not linear in the displacement, so that it "
+                           "has no dual solution; possible are a "
+                           "displacement at a point, a reaction of an edge "
+                           "and the energy."));
+    return result;
+  }
+
   void
-  AdaptiveRefinement::prepare(const ShellProblem         &problem,
-                              const QuantitiesOfInterest &quantities)
+  AdaptiveRefinement::check(const ShellProblem &problem) const
   {
     const std::string section = "Adaptive refinement/";
-    goal_index_.reset();
-    if (!is_on())
-      return;
     AssertThrow(fraction_ > 0. && fraction_ <= 1.,
                 ExcMessage(section + "Fraction: found " +
                            std::to_string(fraction_) +
@@ -135,34 +169,9 @@ namespace Nacre
                 ExcMessage(section + "Cycles: meshes of triangles are refined "
                                      "as a whole only; set it to 0, or choose "
                                      "an element of quadrilaterals."));
-    if (estimator_ == EstimatorType::residual)
-      {
-        AssertThrow(goal_name_.empty(),
-                    ExcMessage(section + "Goal: '" + goal_name_ +
-                               "' has no effect unless 'Estimator = goal'."));
-        return;
-      }
-    std::vector<std::string> names;
-    for (const auto &quantity : quantities.quantities())
-      {
-        if (quantity.name == goal_name_)
-          {
-            goal_index_ = names.size();
-            goal_       = quantity.goal;
-            reference_  = quantity.reference;
-          }
-        names.push_back(quantity.name);
-      }
-    AssertThrow(
-      !goal_name_.empty() && goal_index_,
-      ExcMessage(
-        Text::unknown_name(section + "Goal", "quantity", goal_name_, names)));
-    AssertThrow(goal_.is_known(),
-                ExcMessage(section + "Goal: the quantity '" + goal_name_ +
-                           "' is not linear in the displacement, so that it "
-                           "has no dual solution; possible are a "
-                           "displacement at a point, a reaction of an edge "
-                           "and the energy."));
+    AssertThrow(estimator_ == EstimatorType::goal || goal_name_.empty(),
+                ExcMessage(section + "Goal: '" + goal_name_ +
+                           "' has no effect unless 'Estimator = goal'."));
   }
 
   void

@@ -171,7 +171,7 @@ namespace Nacre
                                             problem_->model.cuts,
                                             problem_->model.exact_solution,
                                             problem_->constants);
-    adaptive_.prepare(*problem_, quantities_);
+    adaptive_   = adaptive_parameters_.make(*problem_, quantities_);
   }
 
   std::vector<std::string>

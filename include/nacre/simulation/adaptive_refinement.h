@@ -56,21 +56,12 @@ namespace Nacre
 
   /**
    * Cycles of solving, estimating the error, and refining where it is large:
-   * doc/adaptive.md. Along a path a cycle is a step of the path.
+   * doc/adaptive.md. Along a path a cycle is a step of the path. By default
+   * there are none.
    */
-  class AdaptiveRefinement : public ParameterAcceptor
+  class AdaptiveRefinement
   {
   public:
-    AdaptiveRefinement();
-
-    /**
-     * Check the parameters against the problem; throws for a goal that isn't
-     * among @p quantities or isn't linear.
-     */
-    void
-    prepare(const ShellProblem         &problem,
-            const QuantitiesOfInterest &quantities);
-
     /** Whether errors are estimated. */
     bool
     is_on() const
@@ -125,6 +116,21 @@ namespace Nacre
     mark(const ErrorEstimate &estimate, const SolvedShell &solution) const;
 
   private:
+    friend class AdaptiveRefinementParameters;
+
+    /** Throws where errors of the problem aren't estimated. */
+    void
+    check(const ShellProblem &problem) const;
+
+    /** What no nonlinear analysis can do. */
+    void
+    check_path(const PathParameters &path) const;
+
+    /** Mark this rank's cells that hold a tip and are longer than tip_size_. */
+    void
+    add_cells_at_tips(const Discretization &discretization,
+                      std::vector<bool>    &marked) const;
+
     unsigned int  n_cycles_  = 0;
     EstimatorType estimator_ = EstimatorType::residual;
     std::string   goal_name_;
@@ -136,19 +142,29 @@ namespace Nacre
     /** Length; 0: no rule of their own. */
     double tip_size_ = 0.;
 
-    /** What no nonlinear analysis can do. */
-    void
-    check_path(const PathParameters &path) const;
-
-    /** Mark this rank's cells that hold a tip and are longer than tip_size_. */
-    void
-    add_cells_at_tips(const Discretization &discretization,
-                      std::vector<bool>    &marked) const;
-
     /** Place of the goal among the quantities. */
     std::optional<unsigned int> goal_index_;
     GoalFunctional              goal_;
     std::optional<double>       reference_;
+  };
+
+  /** The section "Adaptive refinement". */
+  class AdaptiveRefinementParameters : public ParameterAcceptor
+  {
+  public:
+    AdaptiveRefinementParameters();
+
+    /**
+     * Throws for a problem whose errors aren't estimated, and for a goal that
+     * isn't among @p quantities or isn't linear.
+     */
+    AdaptiveRefinement
+    make(const ShellProblem         &problem,
+         const QuantitiesOfInterest &quantities) const;
+
+  private:
+    /** As read; its goal isn't found yet. */
+    AdaptiveRefinement values_;
   };
 } // namespace Nacre
 

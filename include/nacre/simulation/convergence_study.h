@@ -110,12 +110,13 @@ namespace Nacre
     std::vector<std::string>  thicknesses_;
     std::vector<unsigned int> refinements_ = {0};
 
-    ProblemParameters  problem_parameters_;
-    QuantityParameters quantity_parameters_;
-    AdaptiveRefinement adaptive_;
+    ProblemParameters            problem_parameters_;
+    QuantityParameters           quantity_parameters_;
+    AdaptiveRefinementParameters adaptive_parameters_;
     /** Of the case prepared last. */
     std::optional<ShellProblem> problem_;
     QuantitiesOfInterest        quantities_;
+    AdaptiveRefinement          adaptive_;
   };
 } // namespace Nacre
 
