@@ -6,9 +6,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <numeric>
 
 namespace Nacre
@@ -18,25 +20,13 @@ namespace Nacre
     using Dof  = types::global_dof_index;
     using Dofs = std::vector<Dof>;
 
-    /** Lists of numbers, one after another: [k] from starts[k] on. */
-    struct Lists
+    template <typename T>
+    void
+    sort_unique(std::vector<T> &values)
     {
-      std::vector<unsigned int> starts = {0};
-      std::vector<unsigned int> entries;
-
-      /** End the list that was appended to entries. */
-      void
-      close()
-      {
-        starts.push_back(entries.size());
-      }
-
-      ArrayView<const unsigned int>
-      operator[](const unsigned int k) const
-      {
-        return {entries.data() + starts[k], starts[k + 1] - starts[k]};
-      }
-    };
+      std::sort(values.begin(), values.end());
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+    }
 
     /** Dofs start, start + 1, ... of one vertex, edge or cell. */
     struct Block
@@ -67,16 +57,7 @@ namespace Nacre
         , constraints_(constraints)
       {
         collect_blocks();
-        collect_cells();
-        invert_cells();
-        marks_.assign(blocks_.size(), 0);
-        for (const auto &block : blocks_)
-          {
-            bool is_free = true;
-            for (unsigned int k = 0; k < block.length; ++k)
-              is_free &= !constraints_.is_constrained(block.start + k);
-            is_free_.push_back(is_free);
-          }
+        couple_parts();
       }
 
       const std::vector<Block> &
@@ -85,60 +66,22 @@ namespace Nacre
         return blocks_;
       }
 
-      /** Number of the block that holds the @p dof. */
-      unsigned int
-      block_of(const Dof dof) const
-      {
-        const unsigned int block = last_block_up_to(dof);
-        Assert(is_in(dof, block), ExcInternalError());
-        return block;
-      }
-
       /**
-       * The blocks, ascending, to which this rank's cells and their edges
-       * couple the @p block.
+       * The free dofs, ascending, to which this rank's cells and their edges
+       * couple the block of number @p row.
        */
       void
-      coupled_blocks(const unsigned int         block,
-                     std::vector<unsigned int> &result)
-      {
-        result.clear();
-        ++n_calls_; // marks this call's result: a block may come twice
-        const auto add_blocks = [&](const unsigned int cell) {
-          for (const unsigned int b : cell_blocks_[cell])
-            if (marks_[b] != n_calls_)
-              {
-                marks_[b] = n_calls_;
-                result.push_back(b);
-              }
-        };
-        for (const unsigned int cell : block_cells_[block])
-          {
-            if (is_mine_[cell])
-              add_blocks(cell);
-            for (const unsigned int neighbor : neighbors_[cell])
-              if (is_mine_[cell] || is_mine_[neighbor])
-                add_blocks(neighbor);
-          }
-        std::sort(result.begin(), result.end());
-      }
-
-      /** The free dofs of @p blocks. */
-      void
-      free_dofs(const std::vector<unsigned int> &blocks, Dofs &dofs) const
+      coupled_dofs(const unsigned int row, Dofs &dofs) const
       {
         dofs.clear();
-        for (const unsigned int b : blocks)
-          if (is_free_[b])
-            {
-              const auto size = dofs.size();
-              dofs.resize(size + blocks_[b].length);
-              std::iota(dofs.begin() + size, dofs.end(), blocks_[b].start);
-            }
-          else
-            for (unsigned int k = 0; k < blocks_[b].length; ++k)
-              if (!constraints_.is_constrained(blocks_[b].start + k))
-                dofs.push_back(blocks_[b].start + k);
+        for (auto entry = couplings_.begin(row); entry != couplings_.end(row);
+             ++entry)
+          {
+            const Block &block = blocks_[entry->column()];
+            for (Dof dof = block.start; dof < block.start + block.length; ++dof)
+              if (!constraints_.is_constrained(dof))
+                dofs.push_back(dof);
+          }
       }
 
     private:
@@ -175,12 +118,12 @@ namespace Nacre
 
       /** Append the blocks of the cell's dofs: consecutive numbers. */
       void
-      append_blocks(const FiniteElement<dim, spacedim> &fe,
-                    const CellPart                     &part,
-                    Dofs                               &dofs,
-                    std::vector<Block>                 &blocks) const
+      append_blocks(const CellPart     &part,
+                    Dofs               &dofs,
+                    std::vector<Block> &blocks) const
       {
-        const auto append = [&](const unsigned int first,
+        const auto &fe     = part.cell->get_fe();
+        const auto  append = [&](const unsigned int first,
                                 const unsigned int length,
                                 const bool         is_split = false) {
           // Edges may be numbered backwards.
@@ -213,32 +156,27 @@ namespace Nacre
       void
       collect_blocks()
       {
-        const auto &fe = discretization_.dof_handler().get_fe();
-        Dofs        dofs, masters;
+        Dofs dofs, masters;
         for (const CellPart &part : discretization_.relevant_parts())
           {
             discretization_.get_dof_indices(part, dofs);
             for_each_master(dofs,
                             [&](const Dof dof) { masters.push_back(dof); });
-            append_blocks(fe, part, dofs, blocks_);
+            append_blocks(part, dofs, blocks_);
           }
-        sort_blocks();
+        sort_unique(blocks_);
 
         // Eliminated dofs of ghosts may depend on dofs beyond the ghosts.
         std::vector<Block> others;
         for (const Dof dof : masters)
-          if (!is_in(dof, last_block_up_to(dof)))
-            others.push_back({dof, 1});
+          {
+            const unsigned int b = last_block_up_to(dof);
+            if (b == numbers::invalid_unsigned_int ||
+                dof >= blocks_[b].start + blocks_[b].length)
+              others.push_back({dof, 1});
+          }
         blocks_.insert(blocks_.end(), others.begin(), others.end());
-        sort_blocks();
-      }
-
-      void
-      sort_blocks()
-      {
-        std::sort(blocks_.begin(), blocks_.end());
-        blocks_.erase(std::unique(blocks_.begin(), blocks_.end()),
-                      blocks_.end());
+        sort_unique(blocks_);
       }
 
       /** The last block that starts at the dof or before; invalid if none. */
@@ -251,50 +189,59 @@ namespace Nacre
                                          next - blocks_.begin() - 1;
       }
 
-      bool
-      is_in(const Dof dof, const unsigned int block) const
+      /** Numbers of the blocks on which the part's dofs depend, ascending. */
+      std::vector<Dof>
+      blocks_of(const CellPart &part) const
       {
-        return block != numbers::invalid_unsigned_int &&
-               dof < blocks_[block].start + blocks_[block].length;
+        Dofs dofs;
+        discretization_.get_dof_indices(part, dofs);
+        std::vector<Block> blocks;
+        append_blocks(part, dofs, blocks);
+        std::vector<Dof> numbers;
+        for (const auto &block : blocks)
+          numbers.push_back(last_block_up_to(block.start));
+        for_each_master(dofs, [&](const Dof dof) {
+          numbers.push_back(last_block_up_to(dof));
+        });
+        sort_unique(numbers);
+        return numbers;
       }
 
-      /** Blocks and neighbours of each part. */
+      /** Couple the blocks of each part of this rank with its neighbours'. */
       void
-      collect_cells()
+      couple_parts()
       {
-        const auto        &fe    = discretization_.dof_handler().get_fe();
-        const auto         parts = discretization_.relevant_parts();
-        Dofs               dofs;
-        std::vector<Block> blocks;
-        place_.assign(discretization_.n_part_indices(), 0);
-        for (unsigned int k = 0; k < parts.size(); ++k)
-          place_[parts[k].index()] = k;
-        for (const CellPart &part : parts)
+        std::vector<std::vector<Dof>> numbers(discretization_.n_part_indices());
+        for (const CellPart &part : discretization_.relevant_parts())
+          numbers[part.index()] = blocks_of(part);
+
+        couplings_.reinit(blocks_.size(), blocks_.size());
+        std::vector<Dof> columns;
+        for (const CellPart &part : discretization_.relevant_parts())
           {
-            is_mine_.push_back(part.cell->is_locally_owned());
-            blocks.clear();
-            discretization_.get_dof_indices(part, dofs);
-            append_blocks(fe, part, dofs, blocks);
-            for (const auto &block : blocks)
-              cell_blocks_.entries.push_back(block_of(block.start));
-            for_each_master(dofs, [&](const Dof dof) {
-              cell_blocks_.entries.push_back(block_of(dof));
-            });
-            append_neighbors(part);
-            cell_blocks_.close();
-            neighbors_.close();
+            const bool is_mine = part.cell->is_locally_owned();
+            const auto append  = [&](const CellPart &other) {
+              if (is_mine || other.cell->is_locally_owned())
+                columns.insert(columns.end(),
+                               numbers[other.index()].begin(),
+                               numbers[other.index()].end());
+            };
+            columns.clear();
+            append(part);
+            for_each_neighbor(part, append);
+            sort_unique(columns);
+            for (const Dof row : numbers[part.index()])
+              couplings_.add_entries(row, columns.begin(), columns.end(), true);
           }
       }
 
+      /** Call @p use with each part beyond an edge of the @p part. */
+      template <typename Function>
       void
-      append_neighbors(const CellPart &part)
+      for_each_neighbor(const CellPart &part, const Function &use) const
       {
-        const auto      &cell   = part.cell;
-        const CellParts &cuts   = discretization_.cell_parts();
-        const auto       append = [&](const CellPart &neighbor) {
-          if (!neighbor.cell->is_artificial())
-            neighbors_.entries.push_back(place_[neighbor.index()]);
-        };
+        const auto      &cell = part.cell;
+        const CellParts &cuts = discretization_.cell_parts();
         for (const auto face : cell->face_indices())
           {
             if (cell->at_boundary(face))
@@ -303,100 +250,51 @@ namespace Nacre
               {
                 for (const auto &piece : cuts.pieces_between(cell, face))
                   if (piece.sides[0].part.index() == part.index())
-                    append(piece.sides[1].part);
+                    use(piece.sides[1].part);
               }
             else if (cell->neighbor(face)->is_active())
-              append(cuts.part(cell->neighbor(face)));
+              use(cuts.part(cell->neighbor(face)));
             else
               for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
-                append(cuts.part(cell->neighbor_child_on_subface(face, s)));
+                use(cuts.part(cell->neighbor_child_on_subface(face, s)));
           }
-      }
-
-      /** block_cells_ from cell_blocks_. */
-      void
-      invert_cells()
-      {
-        auto &starts = block_cells_.starts;
-        starts.assign(blocks_.size() + 1, 0);
-        for (const unsigned int b : cell_blocks_.entries)
-          ++starts[b + 1];
-        for (unsigned int b = 0; b < blocks_.size(); ++b)
-          starts[b + 1] += starts[b];
-        auto next = starts;
-        block_cells_.entries.resize(cell_blocks_.entries.size());
-        for (unsigned int cell = 0; cell < is_mine_.size(); ++cell)
-          for (const unsigned int b : cell_blocks_[cell])
-            block_cells_.entries[next[b]++] = cell;
       }
 
       const Discretization            &discretization_;
       const AffineConstraints<double> &constraints_;
       std::vector<Block>               blocks_;
-      std::vector<bool>                is_free_; // no dof of it constrained
-      std::vector<bool>                is_mine_; // by relevant part
-      std::vector<unsigned int>        place_;   // by CellPart::index()
-      Lists                            cell_blocks_;
-      Lists                            neighbors_;
-      Lists                            block_cells_;
-      std::vector<unsigned int>        marks_;
-      unsigned int                     n_calls_ = 0;
+      DynamicSparsityPattern           couplings_; // of numbers of blocks
     };
 
-    /** Columns that other ranks know, by the first dof of this rank's block. */
-    std::map<Dof, Dofs>
-    exchange_columns(const Discretization &discretization,
-                     CoupledBlocks        &pattern)
+    /**
+     * Fill @p result with the columns of owned rows that other ranks know: a
+     * block's are in some of its rows, since they may know a part of it.
+     */
+    void
+    receive_columns(const Discretization   &discretization,
+                    const CoupledBlocks    &pattern,
+                    DynamicSparsityPattern &result)
     {
-      const MPI_Comm  communicator = discretization.communicator();
-      const IndexSet &owned        = discretization.locally_owned_dofs();
-      // First dofs of all ranks; numbers of ranks without any don't matter.
-      const Dofs ends = Utilities::MPI::all_gather(
-        communicator,
-        static_cast<Dof>(owned.n_elements() == 0 ?
-                           0 :
-                           owned.nth_index_in_set(owned.n_elements() - 1) + 1));
-      const auto owner = [&](const Dof dof) {
-        unsigned int rank = 0;
-        while (dof >= ends[rank])
-          ++rank;
-        return rank;
-      };
-      std::map<unsigned int, Dofs> messages;
-      std::vector<unsigned int>    coupled;
-      Dofs                         columns;
+      const IndexSet &owned = discretization.locally_owned_dofs();
+      IndexSet        rows  = owned;
+      for (const auto &block : pattern.blocks())
+        if (!owned.is_element(block.start))
+          rows.add_index(block.start);
+      result.reinit(owned.size(), owned.size(), rows);
+      Dofs columns;
       for (unsigned int b = 0; b < pattern.blocks().size(); ++b)
-        {
-          const Dof start = pattern.blocks()[b].start;
-          if (owned.is_element(start))
-            continue;
-          pattern.coupled_blocks(b, coupled);
-          pattern.free_dofs(coupled, columns);
-          if (columns.empty())
-            continue;
-          Dofs &message = messages[owner(start)];
-          message.push_back(start);
-          message.push_back(columns.size());
-          message.insert(message.end(), columns.begin(), columns.end());
-        }
-      std::map<Dof, Dofs> result;
-      for (const auto &[rank, message] :
-           Utilities::MPI::some_to_some(communicator, messages))
-        for (auto entry = message.begin(); entry != message.end();)
+        if (!owned.is_element(pattern.blocks()[b].start))
           {
-            // A master beyond the ghosts comes alone, not as its whole block.
-            const auto &block  = pattern.blocks()[pattern.block_of(entry[0])];
-            const auto  length = entry[1];
-            Dofs       &list   = result[block.start];
-            list.insert(list.end(), entry + 2, entry + 2 + length);
-            entry += 2 + length;
+            pattern.coupled_dofs(b, columns);
+            result.add_entries(pattern.blocks()[b].start,
+                               columns.begin(),
+                               columns.end(),
+                               true);
           }
-      for (auto &[start, list] : result)
-        {
-          std::sort(list.begin(), list.end());
-          list.erase(std::unique(list.begin(), list.end()), list.end());
-        }
-      return result;
+      SparsityTools::distribute_sparsity_pattern(result,
+                                                 owned,
+                                                 discretization.communicator(),
+                                                 rows);
     }
 
     /** Columns of the rows of this rank's blocks, one block after another. */
@@ -409,42 +307,43 @@ namespace Nacre
         , owned_(discretization.locally_owned_dofs())
       {
         if (Utilities::MPI::n_mpi_processes(discretization.communicator()) > 1)
-          foreign_ = exchange_columns(discretization, pattern_);
+          receive_columns(discretization, pattern_, received_);
       }
 
       /** Call @p use(block, columns) for each; columns ascend. */
       template <typename Function>
       void
-      for_each(const Function &use)
+      for_each(const Function &use) const
       {
-        Dofs columns, joint;
+        Dofs columns;
         for (unsigned int b = 0; b < pattern_.blocks().size(); ++b)
           {
             const auto &block = pattern_.blocks()[b];
             if (!owned_.is_element(block.start))
               continue;
-            pattern_.coupled_blocks(b, coupled_);
-            pattern_.free_dofs(coupled_, columns);
-            const auto foreign = foreign_.find(block.start);
-            if (foreign != foreign_.end())
-              {
-                joint.clear();
-                std::set_union(columns.begin(),
-                               columns.end(),
-                               foreign->second.begin(),
-                               foreign->second.end(),
-                               std::back_inserter(joint));
-                columns.swap(joint);
-              }
+            pattern_.coupled_dofs(b, columns);
+            append_received(block, columns);
             use(block, columns);
           }
       }
 
     private:
-      CoupledBlocks             pattern_;
-      const IndexSet           &owned_;
-      std::map<Dof, Dofs>       foreign_;
-      std::vector<unsigned int> coupled_;
+      void
+      append_received(const Block &block, Dofs &columns) const
+      {
+        if (received_.empty())
+          return;
+        const auto n_known = columns.size();
+        for (Dof dof = block.start; dof < block.start + block.length; ++dof)
+          for (unsigned int k = 0; k < received_.row_length(dof); ++k)
+            columns.push_back(received_.column_number(dof, k));
+        if (columns.size() > n_known)
+          sort_unique(columns);
+      }
+
+      CoupledBlocks          pattern_;
+      const IndexSet        &owned_;
+      DynamicSparsityPattern received_; // on several ranks
     };
 
     /** This rank's columns come first, those of other ranks follow. */
@@ -456,9 +355,7 @@ namespace Nacre
         , end_(first_ + owned.n_elements())
         , ghosts_(std::move(ghosts))
       {
-        std::sort(ghosts_.begin(), ghosts_.end());
-        ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()),
-                      ghosts_.end());
+        sort_unique(ghosts_);
       }
 
       int
