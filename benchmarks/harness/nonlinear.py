@@ -66,19 +66,19 @@ PROBLEMS = {
         "nu": 0.3125, "h": 0.094,
         "symmetry": {("u", 0): 0, ("u", 1): 2, ("v", 1): 1}, "held": {},
         "forces": [((0, 1), 2, 10000.)], "watch": ((0, 1), 3),
-        "quantity": "wa", "meshes": (4, 6, 8)},
+        "quantity": "wa", "meshes": (4, 6, 8, 12)},
     # Up to where its creases begin to jump between lines of nodes
     "pinched_cylinder": {
         "position": cylinder(100., 100., 90., "y"), "E": 3e4, "nu": 0.3,
         "h": 1., "symmetry": {("u", 0): 0, ("u", 1): 2, ("v", 1): 1},
         "held": {("v", 0): (0, 2)}, "forces": [((0, 1), 2, -3000.)],
         "watch": ((0, 1), 3), "quantity": "wa", "end": 0.1,
-        "meshes": (8, 12, 16), "settings": {"Analysis/Output times": ""}},
+        "meshes": (8, 12, 16, 20), "settings": {"Analysis/Output times": ""}},
     "semicylinder": {
         "position": cylinder(101.6, 304.8, 90., "y"), "E": 2068.5, "nu": 0.3,
         "h": 3., "symmetry": {("u", 0): 0, ("u", 1): 2}, "held": {},
         "clamped": [("v", 1)], "forces": [((0, 0), 2, -1000.)],
-        "watch": ((0, 0), 3), "quantity": "w", "meshes": (4, 6, 8)},
+        "watch": ((0, 0), 3), "quantity": "w", "meshes": (4, 6, 8, 12)},
     "roof": {
         "position": cylinder(2540., 254., 18. / math.pi, "y"), "E": 3102.75,
         "nu": 0.3, "h": 12.7, "symmetry": {("u", 0): 0, ("v", 1): 1},
