@@ -125,6 +125,11 @@ BOOST_AUTO_TEST_CASE(files_are_whole)
                                }),
                     std::runtime_error);
   BOOST_TEST(content(file) == "first");
+  BOOST_TEST(holds(complaint([] {
+                     write_file("unit_test_folder/" + std::string(300, 'n'),
+                                [](std::ostream &) {});
+                   }),
+                   "File name too long"));
   std::filesystem::remove_all("unit_test_folder");
 }
 
