@@ -18,6 +18,7 @@
 #endif
 
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -202,7 +203,8 @@ namespace
   check_standard_output()
   {
     std::cout.flush();
-    AssertThrow(std::cout.good(),
+    // Other streams write to the same place.
+    AssertThrow(std::cout.good() && std::ferror(stdout) == 0,
                 dealii::ExcMessage("The standard output can't be written: is "
                                    "the disk full?"));
   }

@@ -53,6 +53,9 @@ case("strain_reference", ["Initial strain", "Assembly = reference", "fast"],
      {**HEATED, "Discretization/Assembly": "reference"})
 case("strain_adaptive", ["Cycles", "estimate knows no initial strains"],
      {**HEATED, "Adaptive refinement/Cycles": "1"})
+case("temperature_without_expansion",
+     ["Initial strain/Temperature", "'Thermal expansion'", "strains nothing"],
+     {S + "Temperature": "20"})
 case("strain_of_no_region", ["Initial strain/Regions", "'web'"],
      {S + "Regions": "web: e11 = 1"})
 case("imperfection_no_file", ["Imperfection/Modes, 'no.csv'", "doesn't exist"],
