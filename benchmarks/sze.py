@@ -31,6 +31,7 @@ sys.dont_write_bytecode = True
 PROJECT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(PROJECT / "scripts"))
 import compare_path  # noqa: E402  (found by the line above)
+import plotting  # noqa: E402
 
 TABLES = PROJECT / "benchmarks/sze"
 PRM = PROJECT / "prm/benchmarks"
@@ -104,7 +105,7 @@ class Run:
 
 
 def run(nacre, name, folder, settings, label=""):
-    """Follow the path of a case; compare_path.CompareError if it fails."""
+    """Follow the path of a case; plotting.BadFile if it fails."""
     case = CASES[name]
     name_of_files = f"sze_{name}{label}"
     command = [str(nacre), str(case.prm), "--quiet"]
@@ -121,7 +122,7 @@ def run(nacre, name, folder, settings, label=""):
                           env=environment, stdin=subprocess.DEVNULL)
     path_file = pathlib.Path(folder, f"{name_of_files}_path.csv")
     if done.returncode != 0:
-        raise compare_path.CompareError(
+        raise plotting.BadFile(
             f"{name}: {' '.join(command)}: exit code {done.returncode}\n"
             f"{done.stdout[-2000:]}")
     path = compare_path.read(path_file)
@@ -142,7 +143,7 @@ def hit(path, reference):
     keep = [numpy.abs(loads - load).min() < 1e-9
             for load in reference["load_factor"]]
     if not any(keep):
-        raise compare_path.CompareError("the path meets no load of the table")
+        raise plotting.BadFile("the path meets no load of the table")
     return {column: values[keep] for column, values in reference.items()}
 
 
@@ -199,7 +200,7 @@ def run_test(nacre, name):
         print(f"{column}: {100. * relative:.2f} % of the value at {at:g}, "
               f"{100. * total:.2f} % of the largest at {total_at:g}")
     if max(entry[3] for entry in result.found) > tolerance:
-        raise compare_path.CompareError(
+        raise plotting.BadFile(
             f"{name}: above {100. * tolerance:g} %")
 
 
@@ -272,7 +273,7 @@ def main():
             print_refinement(arguments.nacre, names, arguments.folder)
         else:
             print_table(arguments.nacre, names, arguments.folder)
-    except compare_path.CompareError as error:
+    except plotting.BadFile as error:
         sys.exit(f"benchmarks/sze.py: {error}")
 
 

@@ -22,29 +22,20 @@ Needs Debian's python3-numpy.
 """
 
 import argparse
-import csv
 import sys
 
 import numpy
+
+import plotting
 
 # Points of the cubic between two steps.
 FINE = 200
 
 
-class CompareError(Exception):
-    """What can't be compared, in one sentence."""
-
-
 def read(path):
     """{column: values} of a table."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-    except OSError as error:
-        raise CompareError(f"{path}: {error.strerror}") from error
-    if not rows or "load_factor" not in rows[0]:
-        raise CompareError(f"{path} has no rows or no column 'load_factor'")
-    return {name: numpy.array([float(row[name]) for row in rows])
+    rows = plotting.read_rows(path, "load_factor")
+    return {name: numpy.array(plotting.numbers(path, rows, name))
             for name in rows[0]}
 
 
@@ -85,12 +76,21 @@ def compare(path, reference):
     names = [name for name in reference if name != "load_factor"]
     for name in names:
         if name not in path:
-            raise CompareError(f"the path has no quantity '{name}'; it has: "
-                               f"{', '.join(path)}")
+            raise plotting.BadFile(f"the path has no quantity '{name}'; it "
+                                   f"has: {', '.join(path)}")
     curve = numpy.column_stack([path[n] for n in ["load_factor"] + names])
     loads = reference["load_factor"]
+    for which, table in ("path", path), ("reference", reference):
+        for name in reference:
+            if not numpy.isfinite(table[name]).all():
+                raise plotting.BadFile(f"the {which} has an empty cell in the "
+                                       f"column '{name}'")
+            if not numpy.any(reference[name]):
+                raise plotting.BadFile(f"the reference's column '{name}' is "
+                                       "zero: nothing is relative to it")
     if curve[:, 0].max() < loads.max() * (1. - 1e-9):
-        raise CompareError(f"the path ends below the load factor {loads.max()}")
+        raise plotting.BadFile("the path ends below the load factor "
+                               f"{loads.max()}")
     fine = refined(curve)
     found = []
     if numpy.all(numpy.diff(curve[:, 0]) > 0.):
@@ -123,10 +123,7 @@ def main():
     parser.add_argument("reference", metavar="REFERENCE.csv")
     parser.add_argument("--tolerance", type=float)
     arguments = parser.parse_args()
-    try:
-        found = compare(read(arguments.path), read(arguments.reference))
-    except CompareError as error:
-        sys.exit(f"compare_path.py: {error}")
+    found = compare(read(arguments.path), read(arguments.reference))
     for name, relative, at, total, total_at in found:
         print(f"{name}: {100. * relative:.2f} % of the value at {at:g}, "
               f"{100. * total:.2f} % of the largest at {total_at:g}")
@@ -136,4 +133,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    plotting.run("compare_path.py", main)

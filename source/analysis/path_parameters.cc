@@ -251,6 +251,21 @@ namespace Nacre
                   "the fields are written, if the study writes VTU; in statics "
                   "with the default Load factor these are load levels. Units: "
                   "as End time.");
+    declare_iterations();
+    declare_motion();
+    add_parameter("VTU steps",
+                  steps_.vtu_steps,
+                  "Write the fields every so many steps, if the study writes "
+                  "VTU; 0: of the last one and of the Output times only.");
+    add_parameter("Checkpoint steps",
+                  steps_.checkpoint_steps,
+                  "Save the state every so many steps, for 'nacre FILE "
+                  "--restart'; 0: never.");
+  }
+
+  void
+  AnalysisParameters::declare_iterations()
+  {
     add_parameter("Maximum iterations",
                   steps_.newton.max_iterations,
                   "Newton iterations of a step.",
@@ -283,6 +298,11 @@ namespace Nacre
     add_parameter("Line search",
                   steps_.line_search,
                   "automatic: when a step failed without it.");
+  }
+
+  void
+  AnalysisParameters::declare_motion()
+  {
     add_parameter("Scheme",
                   steps_.scheme,
                   "energy momentum: conserves energy, momentum and angular "
@@ -309,14 +329,6 @@ namespace Nacre
                   initial_velocity_text_,
                   "In dynamics, along x, y, z, expressions of x, y, z; added "
                   "to the velocity of Start from. Units: length/time.");
-    add_parameter("VTU steps",
-                  steps_.vtu_steps,
-                  "Write the fields every so many steps, if the study writes "
-                  "VTU; 0: of the last one and of the Output times only.");
-    add_parameter("Checkpoint steps",
-                  steps_.checkpoint_steps,
-                  "Save the state every so many steps, for 'nacre FILE "
-                  "--restart'; 0: never.");
   }
 
   void

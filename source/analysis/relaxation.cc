@@ -14,6 +14,17 @@ namespace Nacre
     constexpr double margin = 1.2;
     /** A push is as long as the energy falls by this share of its curvature. */
     constexpr double least_slope = 0.5;
+
+    /** What a @p result says if it hasn't converged. */
+    void
+    describe_failure(NewtonSolver::Result &result)
+    {
+      result.kind   = FailureKind::no_stable_state;
+      result.reason = "the dynamic relaxation found no stable state in " +
+                      std::to_string(result.iterations) + " iterations";
+      if (!result.last.failure.text.empty())
+        result.reason += ", as " + result.last.failure.text;
+    }
   } // namespace
 
   Relaxation::Relaxation(ShellSystem                    &system,
@@ -97,11 +108,7 @@ namespace Nacre
                       0. :
                       shift_ * system_.product(mass_, du, du) / step.work);
       }
-    result.kind   = FailureKind::no_stable_state;
-    result.reason = "the dynamic relaxation found no stable state in " +
-                    std::to_string(result.iterations) + " iterations";
-    if (!step.failure.text.empty())
-      result.reason += ", as " + step.failure.text;
+    describe_failure(result);
     return result;
   }
 

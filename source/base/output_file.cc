@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 namespace Nacre
 {
@@ -28,6 +29,15 @@ namespace Nacre
     disk_full(const std::string &file)
     {
       return "Writing '" + file + "' failed: is the disk full?";
+    }
+
+    /** A file that can't be opened, by the number of the @p error. */
+    std::string
+    cannot_open(const std::string &file, const int error)
+    {
+      return "'" + file +
+             "' can't be written: " + std::generic_category().message(error) +
+             ".";
     }
   } // namespace
 
@@ -65,6 +75,7 @@ namespace Nacre
     std::error_code error;
     {
       std::ofstream out(temporary);
+      AssertThrow(out.is_open(), ExcMessage(cannot_open(file, errno)));
       try
         {
           write(out);
@@ -90,11 +101,9 @@ namespace Nacre
     std::filesystem::rename(temporary, path, error);
     if (error)
       {
-        const std::string reason = error.message();
+        const int reason = error.value();
         std::filesystem::remove(temporary, error);
-        AssertThrow(false,
-                    ExcMessage("'" + file + "' can't be written: " + reason +
-                               "."));
+        AssertThrow(false, ExcMessage(cannot_open(file, reason)));
       }
   }
 
@@ -104,7 +113,7 @@ namespace Nacre
   {
     const std::string temporary = temporary_name(file).string();
     const int descriptor = open(temporary.c_str(), O_CREAT | O_WRONLY, 0600);
-    AssertThrow(descriptor >= 0, ExcMessage(disk_full(file)));
+    AssertThrow(descriptor >= 0, ExcMessage(cannot_open(file, errno)));
     const int error = posix_fallocate(descriptor, 0, bytes);
     close(descriptor);
     unlink(temporary.c_str());

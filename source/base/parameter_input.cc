@@ -344,7 +344,7 @@ namespace Nacre
                              "' can't be read."));
       std::ostringstream content;
       content << in.rdbuf();
-      return without_byte_order_mark(content.str(), file);
+      return plain_text(content.str(), file);
     }
 
     /** The section in which the parameter @p full_name is, and its name. */

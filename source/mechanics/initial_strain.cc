@@ -245,18 +245,27 @@ namespace Nacre
     const Values everywhere = values(constants);
     const auto   direction =
       read_direction(direction_, initial_strain + "Direction", constants);
-    InitialStrains result(
-      ByRegion<Values>(everywhere,
-                       values_of_regions(everywhere, constants, has_plies),
-                       regions,
-                       initial_strain + "Regions"),
-      direction,
-      keeps_angles_,
-      has_plies);
+    const auto of_regions = values_of_regions(everywhere, constants, has_plies);
+    InitialStrains result(ByRegion<Values>(everywhere,
+                                           of_regions,
+                                           regions,
+                                           initial_strain + "Regions"),
+                          direction,
+                          keeps_angles_,
+                          has_plies);
     AssertThrow(!has_plies || everywhere.at("expansion").is_zero(),
                 ExcMessage(initial_strain +
                            "Thermal expansion: a laminate takes alpha1 and "
                            "alpha2 of 'Section/Laminate/Materials'."));
+    const bool expands =
+      has_plies || !everywhere.at("expansion").is_zero() ||
+      std::any_of(of_regions.begin(), of_regions.end(), [](const auto &region) {
+        return !region.second.at("expansion").is_zero();
+      });
+    AssertThrow(expands || !result.has_temperature(),
+                ExcMessage(initial_strain +
+                           "Temperature: without a 'Thermal expansion' it "
+                           "strains nothing; give that, too."));
     AssertThrow(!has_plies || !result.has_temperature() || !keeps_angles_,
                 ExcMessage(initial_strain +
                            "Keeps angles: the plies of a laminate expand "

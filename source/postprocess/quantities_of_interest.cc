@@ -323,6 +323,42 @@ namespace Nacre
       return true;
     }
 
+    /** Those of simple_kinds(); returns whether the words are one. */
+    bool
+    parse_simple(QuantitiesOfInterest::Quantity &quantity,
+                 const Phrase                   &phrase,
+                 const ExactSolution            &exact_solution)
+    {
+      const std::string &kind = phrase.text;
+      for (const auto &simple : simple_kinds())
+        if (kind == simple.name)
+          {
+            AssertThrow(!simple.is_error || exact_solution.is_known(),
+                        ExcMessage(phrase.where + ": '" + kind +
+                                   "' needs 'Exact solution/Displacement'."));
+            quantity.evaluate       = simple.evaluate;
+            quantity.is_error       = simple.is_error;
+            quantity.goal.is_energy = (kind == "energy");
+            return true;
+          }
+      return false;
+    }
+
+    void
+    parse_at_point(QuantitiesOfInterest::Quantity &quantity,
+                   const PointQuantity            &at_point)
+    {
+      quantity.point    = at_point.point;
+      quantity.evaluate = [=](const SolvedShell &shell) {
+        return evaluate_point_quantity(shell, at_point);
+      };
+      if (at_point.kind == PointQuantity::Kind::rotation)
+        quantity.angle = [=](const Discretization &discretization,
+                             const TrilinosWrappers::MPI::Vector &u) {
+          return evaluate_angle(discretization, u, at_point);
+        };
+    }
+
     /** Fill evaluate and is_error from the words of a kind. */
     void
     parse_kind(QuantitiesOfInterest::Quantity &quantity,
@@ -333,17 +369,8 @@ namespace Nacre
                const Constants                &constants)
     {
       const std::string kind = phrase.text;
-      for (const auto &simple : simple_kinds())
-        if (kind == simple.name)
-          {
-            AssertThrow(!simple.is_error || exact_solution.is_known(),
-                        ExcMessage(phrase.where + ": '" + kind +
-                                   "' needs 'Exact solution/Displacement'."));
-            quantity.evaluate       = simple.evaluate;
-            quantity.is_error       = simple.is_error;
-            quantity.goal.is_energy = (kind == "energy");
-            return;
-          }
+      if (parse_simple(quantity, phrase, exact_solution))
+        return;
       if (const auto crack = parse_crack_quantity(phrase, cuts, constants))
         {
           quantity.check = [=](const Discretization &mesh) {
@@ -359,44 +386,25 @@ namespace Nacre
                     ExcMessage(phrase.where + ": '" + phrase.text +
                                "' after the kind of quantity is not "
                                "understood."));
-      if (const auto mode = parse_mode_quantity(kind, phrase.where))
-        {
-          quantity.evaluate = [mode](const SolvedShell &shell) {
-            return evaluate_mode_quantity(shell.modes, *mode);
-          };
-          return;
-        }
-      if (const auto of_cut = parse_cut_quantity(phrase, cuts, constants))
-        {
-          quantity.evaluate = [=](const SolvedShell &shell) {
-            return evaluate_cut_quantity(shell, *of_cut);
-          };
-          return;
-        }
       for (const auto &[name, ply_kind] : ply_kinds())
         if (phrase.take(name))
           return parse_ply(quantity, phrase, ply_kind, constants);
-      if (const auto extreme = parse_extreme_stress(phrase))
-        {
-          quantity.evaluate = [=](const SolvedShell &shell) {
-            return evaluate_extreme_stress(shell, *extreme);
-          };
-          return;
-        }
-      if (is_reaction_moment(phrase))
+      if (const auto mode = parse_mode_quantity(kind, phrase.where))
+        quantity.evaluate = [mode](const SolvedShell &shell) {
+          return evaluate_mode_quantity(shell.modes, *mode);
+        };
+      else if (const auto of_cut = parse_cut_quantity(phrase, cuts, constants))
+        quantity.evaluate = [=](const SolvedShell &shell) {
+          return evaluate_cut_quantity(shell, *of_cut);
+        };
+      else if (const auto extreme = parse_extreme_stress(phrase))
+        quantity.evaluate = [=](const SolvedShell &shell) {
+          return evaluate_extreme_stress(shell, *extreme);
+        };
+      else if (is_reaction_moment(phrase))
         parse_reaction(quantity, phrase, true, midsurface, constants);
       else if (const auto at_point = parse_point_quantity(phrase, constants))
-        {
-          quantity.point    = at_point->point;
-          quantity.evaluate = [=](const SolvedShell &shell) {
-            return evaluate_point_quantity(shell, *at_point);
-          };
-          if (at_point->kind == PointQuantity::Kind::rotation)
-            quantity.angle = [=](const Discretization &discretization,
-                                 const TrilinosWrappers::MPI::Vector &u) {
-              return evaluate_angle(discretization, u, *at_point);
-            };
-        }
+        parse_at_point(quantity, *at_point);
       else if (phrase.take("displacement"))
         parse_displacement(quantity, phrase, constants);
       else if (phrase.take("reaction"))

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -150,30 +149,6 @@ namespace Nacre
       return points;
     }
 
-    /** The numbers of a line of a file; @p where names the line. */
-    std::vector<double>
-    read_numbers(std::string line, const std::string &where)
-    {
-      std::replace_if(
-        line.begin(),
-        line.end(),
-        [](const char c) { return c == ',' || c == ';'; },
-        ' ');
-      std::istringstream  in(line);
-      std::vector<double> numbers;
-      for (std::string word; in >> word;)
-        {
-          char        *end    = nullptr;
-          const double number = std::strtod(word.c_str(), &end);
-          AssertThrow(*end == '\0' && std::isfinite(number),
-                      ExcMessage(where + ": '" + word +
-                                 "' is no finite number; a line holds two "
-                                 "numbers, 'u, v', or three, 'x, y, z'."));
-          numbers.push_back(number);
-        }
-      return numbers;
-    }
-
     /** The curves of a file: one point a line, an empty line between curves. */
     std::vector<CutCurve>
     read_curves(const std::string &content, const std::string &where)
@@ -195,7 +170,11 @@ namespace Nacre
               begins = true;
               continue;
             }
-          const auto numbers = read_numbers(text, in_line);
+          const auto numbers =
+            read_numbers(text,
+                         in_line,
+                         "a line holds two numbers, 'u, v', or three, "
+                         "'x, y, z'");
           AssertThrow(numbers.size() == 2 || numbers.size() == 3,
                       ExcMessage(in_line + ": found " +
                                  std::to_string(numbers.size()) +
@@ -300,6 +279,40 @@ namespace Nacre
       else
         curve.points = read_points(rest, curve.coordinates, where, constants);
       return curve;
+    }
+
+    /** The curves of "name: ..."; relative names of files are in @p folder. */
+    std::vector<CutCurve>
+    read_entry(const Text::Entry &entry,
+               const Constants   &constants,
+               const MPI_Comm     communicator,
+               const std::string &folder)
+    {
+      AssertThrow(entry.names.size() == 1,
+                  ExcMessage(cuts_parameter + ": '" + entry.text + "' has " +
+                             std::to_string(entry.names.size()) +
+                             " names; a cut has one."));
+      const std::string     name  = Text::unquoted(entry.names.front());
+      const std::string     where = cuts_parameter + ", '" + entry.text + "'";
+      std::string           file  = entry.value;
+      std::vector<CutCurve> curves;
+      if (take_word(file) == "file")
+        curves = read_curves(
+          read_input_file(communicator, Text::unquoted(file), folder, where)
+            .content,
+          where);
+      else
+        curves = {read_curve(name, entry.value, where, constants)};
+      const bool is_alone = curves.size() == 1;
+      for (std::size_t i = 0; i < curves.size(); ++i)
+        {
+          CutCurve &curve = curves[i];
+          curve.name = is_alone ? name : name + "-" + std::to_string(i + 1);
+          close_if_repeated(curve);
+          check_points(curve,
+                       is_alone ? where : where + ", curve " + curve.name);
+        }
+      return curves;
     }
   } // namespace
 
@@ -416,49 +429,28 @@ namespace Nacre
                            Text::number(tip_radius_) +
                            " with 'Tips = " + name_of(tips_) +
                            "'; only branch functions have a radius."));
+    // Names of curves, and the entries that give them.
     std::map<std::string, std::string> known;
     for (const auto &entry : Text::entries(cuts_text_,
                                            cuts_parameter,
                                            "cut",
                                            "slit: uv (0, 0.5) (1, 0.5)"))
-      {
-        AssertThrow(entry.names.size() == 1,
-                    ExcMessage(cuts_parameter + ": '" + entry.text + "' has " +
-                               std::to_string(entry.names.size()) +
-                               " names; a cut has one."));
-        const std::string     name  = Text::unquoted(entry.names.front());
-        const std::string     where = cuts_parameter + ", '" + entry.text + "'";
-        std::string           file  = entry.value;
-        std::vector<CutCurve> curves;
-        if (take_word(file) == "file")
-          curves = read_curves(
-            read_input_file(communicator_, Text::unquoted(file), folder_, where)
-              .content,
-            where);
-        else
-          curves = {read_curve(name, entry.value, where, constants)};
-        for (std::size_t i = 0; i < curves.size(); ++i)
-          {
-            CutCurve &curve = curves[i];
-            curve.name =
-              curves.size() == 1 ? name : name + "-" + std::to_string(i + 1);
-            const std::string of_curve =
-              curves.size() == 1 ? where : where + ", curve " + curve.name;
-            close_if_repeated(curve);
-            check_points(curve, of_curve);
-            AssertThrow(known.emplace(curve.name, entry.text).second,
-                        ExcMessage(of_curve + ": the name '" + curve.name +
-                                   "' is that of '" + known[curve.name] +
-                                   "'; two cuts can't have one name."));
-            AssertThrow(curve.coordinates != CutCurve::Coordinates::chart ||
-                          midsurface.has_chart(),
-                        ExcMessage(of_curve +
-                                   ": this surface isn't described over a "
-                                   "rectangle of (u, v); give the points in "
-                                   "space, 'xyz (x, y, z) ...'."));
-            result.curves.push_back(std::move(curve));
-          }
-      }
+      for (CutCurve &curve :
+           read_entry(entry, constants, communicator_, folder_))
+        {
+          const std::string where = cuts_parameter + ", '" + entry.text + "'";
+          AssertThrow(known.emplace(curve.name, entry.text).second,
+                      ExcMessage(where + ": the name '" + curve.name +
+                                 "' is that of '" + known[curve.name] +
+                                 "'; two cuts can't have one name."));
+          AssertThrow(curve.coordinates != CutCurve::Coordinates::chart ||
+                        midsurface.has_chart(),
+                      ExcMessage(where +
+                                 ": this surface isn't described over a "
+                                 "rectangle of (u, v); give the points in "
+                                 "space, 'xyz (x, y, z) ...'."));
+          result.curves.push_back(std::move(curve));
+        }
     for (const auto &text : Text::split(remove_text_, ';', remove_parameter))
       result.remove.push_back(
         evaluate_point(text, remove_parameter, constants));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
-#include <nacre/base/mpi_errors.h>
+#include <nacre/base/input_file.h>
 #include <nacre/base/text.h>
 #include <nacre/problem/imperfection.h>
 
@@ -12,8 +12,7 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 #include <sstream>
 
 namespace Nacre
@@ -33,46 +32,13 @@ namespace Nacre
       return {x[0], x[1], x[2]};
     }
 
-    /** The numbers of a line, or none if it is a comment. */
-    std::vector<double>
-    numbers_of(std::string line)
+    /** Whether a @p line doesn't begin with a number. */
+    bool
+    is_comment(const std::string &line)
     {
-      std::replace_if(
-        line.begin(),
-        line.end(),
-        [](const char c) { return c == ',' || c == ';'; },
-        ' ');
-      std::istringstream  in(line);
-      std::vector<double> numbers;
-      for (double number; in >> number;)
-        numbers.push_back(number);
-      return numbers;
-    }
-
-    /** The content of a file on all ranks. */
-    std::string
-    read_on_all(const std::string &name,
-                const std::string &where,
-                const MPI_Comm     communicator,
-                const std::string &folder)
-    {
-      std::string text;
-      run_on_root(communicator, [&]() {
-        namespace fs  = std::filesystem;
-        fs::path path = name;
-        if (path.is_relative() && fs::exists(fs::path(folder) / path))
-          path = fs::path(folder) / path;
-        std::ifstream     in(path);
-        std::stringstream content;
-        content << in.rdbuf();
-        AssertThrow(in.good() && !content.str().empty(),
-                    ExcMessage(where + ": the file '" + name +
-                               "' can't be read; it is looked for in the "
-                               "folder of the parameter file and in that of "
-                               "the run."));
-        text = content.str();
-      });
-      return Utilities::MPI::broadcast(communicator, text);
+      char *end = nullptr;
+      std::strtod(line.c_str(), &end);
+      return end == line.c_str();
     }
   } // namespace
 
@@ -91,16 +57,18 @@ namespace Nacre
     std::vector<std::pair<TreePoint, unsigned int>> entries;
     for (unsigned int number = 1; std::getline(in, line); ++number)
       {
-        const auto v = numbers_of(line);
-        if (v.empty())
+        line = Text::trim(line.substr(0, line.find('#')));
+        if (is_comment(line))
           continue;
+        const std::string in_line = where + ": line " + std::to_string(number);
+        const std::string form    = "all lines have four numbers, 'x y z w', "
+                                    "or six, 'x y z dx dy dz'";
+        const auto        v       = read_numbers(line, in_line, form);
         if (n_columns == 0)
           n_columns = v.size();
         AssertThrow(v.size() == n_columns && (n_columns == 4 || n_columns == 6),
-                    ExcMessage(where + ": line " + std::to_string(number) +
-                               " has " + std::to_string(v.size()) +
-                               " numbers; all lines have four, 'x y z w', or "
-                               "six, 'x y z dx dy dz'."));
+                    ExcMessage(in_line + " has " + std::to_string(v.size()) +
+                               " numbers; " + form + "."));
         const Point<3> x(v[0], v[1], v[2]);
         entries.emplace_back(tree_point(x), points_.size());
         points_.push_back(x);
@@ -271,7 +239,7 @@ namespace Nacre
             const std::string where = section + name + ", '" + file + "'";
             double factor = evaluate_number(entry.value, where, constants);
             const std::string content =
-              read_on_all(file, where, communicator, folder);
+              read_input_file(communicator, file, folder, where).content;
             PointField field(content, where);
             result->content += content;
             if (are_modes)

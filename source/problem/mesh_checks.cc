@@ -213,8 +213,7 @@ namespace Nacre
   }
 
 
-  void
-  orient_cells(MeshFile &mesh, const MeshSides &sides)
+  namespace
   {
     enum : int
     {
@@ -222,46 +221,64 @@ namespace Nacre
       kept    = 1,
       turned  = -1
     };
-    std::vector<int>          state(mesh.cells.size(), unknown);
-    std::vector<unsigned int> reached = {0};
-    state[0]                          = kept;
-    for (unsigned int i = 0; i < reached.size(); ++i)
-      {
-        const unsigned int cell  = reached[i];
-        const auto        &nodes = mesh.cells[cell].nodes;
-        for (const auto &[ends, middle] :
-             CoarseCell::sides(mesh.n_corners(cell)))
-          {
-            (void)middle;
-            const unsigned int    a = nodes[ends[0]], b = nodes[ends[1]];
-            const MeshLine        line  = std::minmax(a, b);
-            const MeshSide *const other = neighbor(sides, line, cell);
-            if (other == nullptr)
-              continue;
-            // Neighbours of one orientation go along a side both ways.
-            const int wanted =
-              (other->forward != (a < b)) ? state[cell] : -state[cell];
-            if (state[other->cell] == unknown)
-              {
-                state[other->cell] = wanted;
-                reached.push_back(other->cell);
-              }
-            else if (state[other->cell] != wanted)
-              fail(mesh,
-                   "the cells can't be given one orientation: across " +
-                     describe(mesh, line) + " " + mesh.describe_cell(cell) +
-                     " and " + mesh.describe_cell(other->cell) +
-                     " have opposite ones, whichever way one goes round; a "
-                     "surface with one side only (a Moebius strip) isn't "
-                     "possible.");
-          }
-      }
-    const auto apart = std::find(state.begin(), state.end(), unknown);
-    if (apart != state.end())
-      fail(mesh,
-           "the mesh has several parts: " + mesh.describe_cell(0) + " and " +
-             mesh.describe_cell(apart - state.begin()) +
-             " aren't connected by common sides.");
+
+    /**
+     * For each cell whether it is kept or turned over such that all have the
+     * orientation of the first one. Throws where that is impossible, and for
+     * cells that no way along common sides leads to.
+     */
+    std::vector<int>
+    find_orientations(const MeshFile &mesh, const MeshSides &sides)
+    {
+      std::vector<int>          state(mesh.cells.size(), unknown);
+      std::vector<unsigned int> reached = {0};
+      state[0]                          = kept;
+      for (unsigned int i = 0; i < reached.size(); ++i)
+        {
+          const unsigned int cell  = reached[i];
+          const auto        &nodes = mesh.cells[cell].nodes;
+          for (const auto &[ends, middle] :
+               CoarseCell::sides(mesh.n_corners(cell)))
+            {
+              (void)middle;
+              const unsigned int    a = nodes[ends[0]], b = nodes[ends[1]];
+              const MeshLine        line  = std::minmax(a, b);
+              const MeshSide *const other = neighbor(sides, line, cell);
+              if (other == nullptr)
+                continue;
+              // Neighbours of one orientation go along a side both ways.
+              const int wanted =
+                (other->forward != (a < b)) ? state[cell] : -state[cell];
+              if (state[other->cell] == unknown)
+                {
+                  state[other->cell] = wanted;
+                  reached.push_back(other->cell);
+                }
+              else if (state[other->cell] != wanted)
+                fail(mesh,
+                     "the cells can't be given one orientation: across " +
+                       describe(mesh, line) + " " + mesh.describe_cell(cell) +
+                       " and " + mesh.describe_cell(other->cell) +
+                       " have opposite ones, whichever way one goes round; a "
+                       "surface with one side only (a Moebius strip) isn't "
+                       "possible.");
+            }
+        }
+      const auto apart = std::find(state.begin(), state.end(), unknown);
+      if (apart != state.end())
+        fail(mesh,
+             "the mesh has several parts: " + mesh.describe_cell(0) + " and " +
+               mesh.describe_cell(apart - state.begin()) +
+               " aren't connected by common sides.");
+      return state;
+    }
+  } // namespace
+
+
+  void
+  orient_cells(MeshFile &mesh, const MeshSides &sides)
+  {
+    const std::vector<int> state = find_orientations(mesh, sides);
     const int    few      = 2 * std::count(state.begin(), state.end(), turned) >
                         static_cast<std::ptrdiff_t>(state.size()) ?
                               kept :

@@ -62,8 +62,8 @@ namespace Nacre
           version_ < 3. ? read_nodes_2() : read_nodes_4();
         else if (name == "Elements")
           version_ < 3. ? read_elements_2() : read_elements_4();
-        else if (name == "PartitionedEntities")
-          text_.fail("the mesh is partitioned; save it as one part.");
+        else if (name == "PartitionedEntities" && version_ > 4.)
+          read_partitioned_entities();
         else
           {
             while (text_.word("$End" + name) != "$End" + name)
@@ -120,7 +120,7 @@ namespace Nacre
       }
 
       void
-      read_entities()
+      read_entities(std::set<long long> *partitions = nullptr)
       {
         std::array<std::size_t, 4> n;
         for (auto &count : n)
@@ -129,21 +129,54 @@ namespace Nacre
           for (std::size_t i = 0; i < n[dim]; ++i)
             {
               const long long tag = text_.integer("the number of an entity");
+              if (partitions != nullptr)
+                {
+                  text_.integer("the dimension of the whole entity");
+                  text_.integer("the number of the whole entity");
+                  const auto found = read_integers("partition");
+                  partitions->insert(found.begin(), found.end());
+                }
               for (unsigned int c = 0; c < (dim == 0 ? 3 : 6); ++c)
                 text_.number("a bound of the entity " + std::to_string(tag));
-              const auto n_groups = text_.count("the number of groups");
               // The sign is the direction of the curve in the group.
-              for (std::size_t g = 0; g < n_groups; ++g)
+              for (const long long group : read_integers("group"))
                 entity_groups_[{dim, tag}].push_back(
-                  group_name(dim, std::abs(text_.integer("a group"))));
+                  group_name(dim, std::abs(group)));
               if (dim > 0)
-                {
-                  const auto n_bounding =
-                    text_.count("the number of bounding entities");
-                  for (std::size_t b = 0; b < n_bounding; ++b)
-                    text_.integer("a bounding entity");
-                }
+                read_integers("bounding entity");
             }
+      }
+
+      /**
+       * The parts of entities stand in their place: they have numbers of their
+       * own and the groups of the whole.
+       */
+      void
+      read_partitioned_entities()
+      {
+        const auto n_partitions = text_.count("the number of partitions");
+        const auto n_ghosts     = text_.count("the number of ghost entities");
+        for (std::size_t i = 0; i < 2 * n_ghosts; ++i)
+          text_.integer("a ghost entity or its partition");
+        entity_groups_.clear();
+        std::set<long long> partitions;
+        read_entities(&partitions);
+        if (partitions.size() < n_partitions)
+          text_.fail("the file holds " + std::to_string(partitions.size()) +
+                     " of the mesh's " + std::to_string(n_partitions) +
+                     " partitions; save all of them in one file (gmsh: "
+                     "Mesh.PartitionSplitMeshFiles = 0).");
+      }
+
+      /** A count, and so many integers, each a @p thing. */
+      std::vector<long long>
+      read_integers(const std::string &thing)
+      {
+        std::vector<long long> result(
+          text_.count("a count, each a " + thing + ","));
+        for (long long &integer : result)
+          integer = text_.integer("a " + thing);
+        return result;
       }
 
       void

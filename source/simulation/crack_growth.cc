@@ -105,6 +105,16 @@ namespace Nacre
                     ExcMessage("Growth/Tips, '" + tip.name +
                                "': " + in_words(crack, problem_.model.cuts) +
                                " (Study/Refinements)."));
+    const Growth &growth = problem_.growth;
+    const double  extent = discretization.extent().second;
+    for (const auto &[parameter, length] :
+         {std::make_pair("Step", growth.step),
+          std::make_pair("Averaging distance", growth.averaging_distance)})
+      AssertThrow(length.is_in_cells || length.value <= extent,
+                  ExcMessage("Growth/" + std::string(parameter) + ": " +
+                             Text::number(length.value) +
+                             " is longer than the shell, whose extent is " +
+                             Text::number(extent) + "."));
   }
 
   void

@@ -18,6 +18,7 @@
 #endif
 
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <optional>
 
@@ -197,6 +198,17 @@ namespace
 #endif
   }
 
+  /** What the terminal hasn't taken, or a file in its place, is lost. */
+  void
+  check_standard_output()
+  {
+    std::cout.flush();
+    // Other streams write to the same place.
+    AssertThrow(std::cout.good() && std::ferror(stdout) == 0,
+                dealii::ExcMessage("The standard output can't be written: is "
+                                   "the disk full?"));
+  }
+
   int
   run(const int argc, char **argv)
   {
@@ -254,5 +266,9 @@ main(int argc, char **argv)
   // The library of threads reads the process' memory map at its first task:
   // part of the start, not of the first case.
   dealii::Threads::new_task([]() {}).join();
-  return Nacre::run_guarded(MPI_COMM_WORLD, [&]() { return run(argc, argv); });
+  return Nacre::run_guarded(MPI_COMM_WORLD, [&]() {
+    const int code = run(argc, argv);
+    check_standard_output();
+    return code;
+  });
 }

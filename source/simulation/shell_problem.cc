@@ -294,95 +294,125 @@ namespace Nacre
                            "remembers; choose auto or direct."));
   }
 
+  namespace
+  {
+    /** Edge form, tangent and assembly. */
+    void
+    check_forms(const ShellProblem &problem)
+    {
+      const KinematicsOptions &options = problem.model.kinematics;
+      const bool               has_rotation_jump =
+        options.edge_form == EdgeForm::rotation_jump;
+      AssertThrow(options.model == KinematicsModel::linear || has_rotation_jump,
+                  ExcMessage("Discretization/Edge form: co-rotational and "
+                             "finite kinematics have 'rotation jump' only; "
+                             "found '" +
+                             name_of(options.edge_form) + "'."));
+      AssertThrow(options.tangent != TangentType::consistent ||
+                    options.model != KinematicsModel::corotational,
+                  ExcMessage("Discretization/Tangent: 'consistent', the "
+                             "derivative itself, is an unsymmetric matrix, and "
+                             "the solvers are for symmetric ones; choose "
+                             "'symmetric', its symmetric part, which is what "
+                             "'consistent' has been so far."));
+      AssertThrow(!problem.path.follows_curve() ||
+                    options.tangent != TangentType::frozen,
+                  ExcMessage("Discretization/Tangent: 'frozen' converges "
+                             "slowly, and 'Analysis/Type = " +
+                             name_of(problem.path.type) +
+                             "' needs the derivative; choose 'symmetric'."));
+      if (problem.assembly == AssemblyMethod::fast)
+        return;
+      const std::string reference = "Discretization/Assembly: 'reference' ";
+      AssertThrow(problem.path.is_linear() && has_rotation_jump,
+                  ExcMessage(reference + "knows linear analyses in the "
+                                         "rotation-jump form only; choose "
+                                         "'fast'."));
+      AssertThrow(problem.model.cuts.is_empty(),
+                  ExcMessage(reference + "knows no cells that cuts "
+                                         "(Cuts/Cuts) divide; choose 'fast'."));
+      AssertThrow(!problem.model.section->has_initial_strain(),
+                  ExcMessage("Section/Initial strain: 'Discretization/Assembly "
+                             "= reference' doesn't know it; choose 'fast'."));
+    }
+
+    /** What modes are sought about. */
+    void
+    check_modes(const ShellProblem &problem)
+    {
+      if (!seeks_modes(problem.path.type))
+        return;
+      const KinematicsOptions &options = problem.model.kinematics;
+      const std::string        type =
+        "'Analysis/Type = " + name_of(problem.path.type) + "'";
+      const bool at_rest = problem.path.start_from.empty();
+      AssertThrow(!at_rest || (options.model == KinematicsModel::linear &&
+                               options.edge_form == EdgeForm::rotation_jump),
+                  ExcMessage("Discretization/Kinematics, Edge form: " + type +
+                             " linearises about the undeformed shell; choose "
+                             "'Kinematics = linear' and 'Edge form = rotation "
+                             "jump', and by 'Analysis/Prestress' what the "
+                             "state before adds; or name a state by "
+                             "'Analysis/Start from'."));
+      AssertThrow(at_rest || options.model == KinematicsModel::finite,
+                  ExcMessage("Discretization/Kinematics: " + type +
+                             " about the state of 'Analysis/Start from' takes "
+                             "the derivative of an exact tangent; choose "
+                             "'finite', with which that state must have been "
+                             "found, too."));
+    }
+
+    void
+    check_multigrid(const ShellProblem &problem)
+    {
+      AssertThrow(problem.solver.type != SolverType::multigrid ||
+                    !problem.path.needs_direct_solver(),
+                  ExcMessage(
+                    seeks_modes(problem.path.type) ?
+                      "Linear solver/Solver: 'multigrid' has no factors, which "
+                      "'Analysis/Type = " +
+                        name_of(problem.path.type) +
+                        "' needs; choose auto or direct." :
+                      std::string("Linear solver/Solver: 'multigrid' doesn't "
+                                  "know the inertia of a dynamic analysis; "
+                                  "choose auto or direct.")));
+    }
+
+    /** What no linear analysis knows. */
+    void
+    check_linear(const ShellProblem &problem)
+    {
+      AssertThrow((!problem.path.is_linear() &&
+                   !seeks_modes(problem.path.type)) ||
+                    !problem.model.foundation.is_nonlinear(),
+                  ExcMessage("Foundation/Tension free: '" +
+                             name_of(problem.model.foundation.tension_free) +
+                             "' is nonlinear, and 'Analysis/Type = " +
+                             name_of(problem.path.type) +
+                             "' is linear; choose 'Analysis/Type = static' or "
+                             "'Tension free = no'."));
+      if (!problem.path.is_linear())
+        return;
+      const KinematicsModel model = problem.model.kinematics.model;
+      AssertThrow(model == KinematicsModel::linear,
+                  ExcMessage("Discretization/Kinematics: '" + name_of(model) +
+                             "' is nonlinear; choose 'Analysis/Type = "
+                             "static', relaxation or dynamic."));
+      AssertThrow(!problem.model.loads.pressure_follows(),
+                  ExcMessage("Loads/Pressure follows: a linear analysis "
+                             "knows the undeformed surface only; choose "
+                             "another 'Analysis/Type'."));
+    }
+  } // namespace
+
   void
   ProblemParameters::check(const ShellProblem &problem)
   {
-    const KinematicsOptions &options = problem.model.kinematics;
-    const bool linear_kinematics = (options.model == KinematicsModel::linear);
-    AssertThrow(linear_kinematics ||
-                  options.edge_form == EdgeForm::rotation_jump,
-                ExcMessage("Discretization/Edge form: co-rotational and finite "
-                           "kinematics have 'rotation jump' only; found '" +
-                           name_of(options.edge_form) + "'."));
-    AssertThrow(options.tangent != TangentType::consistent ||
-                  options.model != KinematicsModel::corotational,
-                ExcMessage("Discretization/Tangent: 'consistent', the "
-                           "derivative itself, is an unsymmetric matrix, and "
-                           "the solvers are for symmetric ones; choose "
-                           "'symmetric', its symmetric part, which is what "
-                           "'consistent' has been so far."));
-    AssertThrow(problem.solver.type != SolverType::multigrid ||
-                  !problem.path.needs_direct_solver(),
-                ExcMessage(
-                  seeks_modes(problem.path.type) ?
-                    "Linear solver/Solver: 'multigrid' has no factors, which "
-                    "'Analysis/Type = " +
-                      name_of(problem.path.type) +
-                      "' needs; choose auto or direct." :
-                    std::string("Linear solver/Solver: 'multigrid' doesn't "
-                                "know the inertia of a dynamic analysis; "
-                                "choose auto or direct.")));
-    const std::string type = "'Analysis/Type = " + name_of(problem.path.type);
-    const bool        at_rest =
-      seeks_modes(problem.path.type) && problem.path.start_from.empty();
-    AssertThrow(!at_rest || (linear_kinematics &&
-                             options.edge_form == EdgeForm::rotation_jump),
-                ExcMessage("Discretization/Kinematics, Edge form: " + type +
-                           "' linearises about the undeformed shell; choose "
-                           "'Kinematics = linear' and 'Edge form = rotation "
-                           "jump', and by 'Analysis/Prestress' what the state "
-                           "before adds; or name a state by 'Analysis/Start "
-                           "from'."));
-    AssertThrow(!seeks_modes(problem.path.type) || at_rest ||
-                  options.model == KinematicsModel::finite,
-                ExcMessage("Discretization/Kinematics: " + type +
-                           "' about the state of 'Analysis/Start from' takes "
-                           "the derivative of an exact tangent; choose "
-                           "'finite', with which that state must have been "
-                           "found, too."));
-    AssertThrow(!problem.path.follows_curve() ||
-                  options.tangent != TangentType::frozen,
-                ExcMessage("Discretization/Tangent: 'frozen' converges slowly, "
-                           "and " +
-                           type +
-                           "' needs the derivative; choose "
-                           "'symmetric'."));
-    AssertThrow(problem.assembly == AssemblyMethod::fast ||
-                  (problem.path.is_linear() &&
-                   options.edge_form == EdgeForm::rotation_jump),
-                ExcMessage(
-                  "Discretization/Assembly: 'reference' knows linear "
-                  "analyses in the rotation-jump form only; choose 'fast'."));
-    AssertThrow(problem.assembly == AssemblyMethod::fast ||
-                  problem.model.cuts.is_empty(),
-                ExcMessage(
-                  "Discretization/Assembly: 'reference' knows no cells "
-                  "that cuts (Cuts/Cuts) divide; choose 'fast'."));
+    check_forms(problem);
+    check_multigrid(problem);
+    check_modes(problem);
     check_tips(problem);
     check_section(problem);
-    AssertThrow((!problem.path.is_linear() &&
-                 !seeks_modes(problem.path.type)) ||
-                  !problem.model.foundation.is_nonlinear(),
-                ExcMessage("Foundation/Tension free: '" +
-                           name_of(problem.model.foundation.tension_free) +
-                           "' is nonlinear, and 'Analysis/Type = " +
-                           name_of(problem.path.type) +
-                           "' is linear; choose 'Analysis/Type = static' or "
-                           "'Tension free = no'."));
-    AssertThrow(!problem.model.section->has_initial_strain() ||
-                  problem.assembly == AssemblyMethod::fast,
-                ExcMessage("Section/Initial strain: 'Discretization/Assembly = "
-                           "reference' doesn't know it; choose 'fast'."));
-    if (!problem.path.is_linear())
-      return;
-    AssertThrow(linear_kinematics,
-                ExcMessage("Discretization/Kinematics: '" +
-                           name_of(options.model) +
-                           "' is nonlinear; choose 'Analysis/Type = "
-                           "static', relaxation or dynamic."));
-    AssertThrow(!problem.model.loads.pressure_follows(),
-                ExcMessage("Loads/Pressure follows: a linear analysis "
-                           "knows the undeformed surface only; choose "
-                           "another 'Analysis/Type'."));
+    check_linear(problem);
   }
 } // namespace Nacre

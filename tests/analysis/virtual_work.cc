@@ -4,9 +4,8 @@
 // The work of all forces on a virtual displacement of an edge, a reaction: its
 // gradient and its rate against differences, with loads that change in time.
 
-#include "../tests_common.h"
+#include "loaded_shell.h"
 #include <nacre/analysis/shell_system.h>
-#include <nacre/problem/midsurface.h>
 #include <nacre/solvers/direct_solver.h>
 
 using namespace Tests;
@@ -37,30 +36,20 @@ int
 main(int argc, char **argv)
 {
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  TextModel                              parameters(text);
-  ShellModel                            &model = parameters.model;
-  model.kinematics.model                       = KinematicsModel::finite;
-  model.eta                                    = 5.;
-  const Discretization discretization(model.midsurface,
-                                      MPI_COMM_WORLD,
-                                      Element{ElementType::lagrange, 2},
-                                      1,
-                                      0);
-  const Assembly       assembly(discretization, model);
-  DirectSolver         solver(MPI_COMM_WORLD);
-  ShellSystem          system(discretization, assembly, model, solver);
+  LoadedShell           shell(text, KinematicsModel::finite, 1);
+  const Discretization &discretization = shell.discretization;
+  DirectSolver          solver(MPI_COMM_WORLD);
+  ShellSystem system(discretization, shell.assembly, shell.model, solver);
 
   TrilinosVector v = interpolate(discretization, [](const Point<3> &x) {
     return Vector3({0., 0., x[1] > 0.9 ? 1. : 0.});
   });
-  TrilinosVector u = interpolate(discretization, some_field), direction(u);
+  TrilinosVector u = interpolate(discretization, some_field);
   u *= 0.1;
-  for (const auto i : discretization.locally_owned_dofs())
-    direction(i) = std::sin(1. + 3. * i);
-  direction.compress(VectorOperation::insert);
-  const double time = 0.7, dt = 1e-3;
-  const auto   work  = system.virtual_work(u, v, time, dt);
-  const auto   moved = [&](const double step) {
+  const TrilinosVector direction = shell.direction();
+  const double         time = 0.7, dt = 1e-3;
+  const auto           work  = system.virtual_work(u, v, time, dt);
+  const auto           moved = [&](const double step) {
     TrilinosVector at(u);
     at.add(step, direction);
     return system.virtual_work(at, v, time, dt).value;

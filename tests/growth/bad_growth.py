@@ -85,6 +85,12 @@ case("growth_hoop_in_rotations",
                                  "Discretization/Kinematics": "finite"})
 case("growth_short_step", ["Growth/Step: at the tip 'slit end'", "too short"],
      args=(), Step="0.01")
+case("growth_long_step", ["Growth/Step: 3 is longer than the shell", "1.4"],
+     Step="3")
+case("growth_long_average",
+     ["Growth/Averaging distance: 1e+300 is longer than the shell"],
+     Criterion="strength", Toughness="", Averaging_distance="1e300",
+     Strength="1")
 case("growth_of_modes", ["Growth/Tips", "'Analysis/Type = vibration'"],
      **{"Analysis/Type": "vibration"})
 case("growth_buckling", ["Growth/Tips", "'Analysis/Type = buckling'",

@@ -53,12 +53,19 @@ case("strain_reference", ["Initial strain", "Assembly = reference", "fast"],
      {**HEATED, "Discretization/Assembly": "reference"})
 case("strain_adaptive", ["Cycles", "estimate knows no initial strains"],
      {**HEATED, "Adaptive refinement/Cycles": "1"})
+case("temperature_without_expansion",
+     ["Initial strain/Temperature", "'Thermal expansion'", "strains nothing"],
+     {S + "Temperature": "20"})
 case("strain_of_no_region", ["Initial strain/Regions", "'web'"],
      {S + "Regions": "web: e11 = 1"})
-case("imperfection_no_file", ["Imperfection/Modes, 'no.csv'", "can't be read"],
+case("imperfection_no_file", ["Imperfection/Modes, 'no.csv'", "doesn't exist"],
      {I + "Modes": "no.csv: 1"})
 case("imperfection_columns", ["'w.points': line 2 has 3 numbers", "x y z w"],
      {I + "Points": "w.points: 1"}, folder={"w.points": "x y z\n1 2 3\n"})
+case("imperfection_not_finite",
+     ["'w.points': line 3: 'nan' is no finite number", "x y z w"],
+     {I + "Points": "w.points: 1"},
+     folder={"w.points": "x y z w\n0 0 0 1\nnan 1 0 1\n0 1 0 1\n1 1 0 1\n"})
 case("imperfection_elsewhere", ["no point of the file is near"],
      {I + "Points": "w.points: 1"},
      folder={"w.points": "0 0 5 1\n1 0 5 1\n0 1 5 1\n2 1 5 1\n"})

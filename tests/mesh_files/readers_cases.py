@@ -47,6 +47,7 @@ def bad(name, content, *expect, files=None, ranks=(1,), mesh="mesh.inp"):
 good("plain", DECK)
 good("byte_order_mark", b"\xef\xbb\xbf" + DECK.encode(), ranks=(1, 2))
 good("carriage_returns", DECK.replace("\n", "\r\n").encode())
+good("carriage_returns_alone", DECK.replace("\n", "\r").encode())
 good("comments_and_blank_lines",
      "** a comment\n\n" + DECK.replace("*ELEMENT", "\n** another\n*ELEMENT"))
 good("quoted_labels", DECK.replace("NSET=Root", 'NSET="my root, left"')
@@ -313,6 +314,11 @@ good("include", DECK.replace(NODES, "*INCLUDE, INPUT=sub/nodes.txt\n")
      .replace(CELLS, ""),
      files={"sub/nodes.txt": "\ufeff" + NODES + "*include, input=rest.txt\n",
             "sub/rest.txt": "*ELEMENT, TYPE=S4\n" + CELLS}, ranks=(1, 2))
+# written on Windows
+good("include_in_windows_names", DECK.replace(
+    NODES, "*INCLUDE, INPUT=.\\Sub\\NODES.txt\n").replace(CELLS, ""),
+     files={"sub/nodes.TXT": NODES + "*include, input=Rest.txt\n",
+            "sub/rest.txt": "*ELEMENT, TYPE=S4\n" + CELLS}, ranks=(1, 2))
 good("node_input", DECK.replace("*NODE\n" + NODES,
                                 "*NODE, INPUT=nodes.txt\n"),
      files={"nodes.txt": NODES})
@@ -427,6 +433,21 @@ $EndElements
 """
 good("gmsh_4_groups", GMSH_4)
 good("gmsh_4_other_group", GMSH_4, edges="Left")
+# as gmsh -part 2 writes it: a curve and two halves of the surface
+GMSH_PARTITIONED = GMSH_4.replace("$Nodes", """\
+$PartitionedEntities
+2
+1
+9 1
+0 1 2 0
+5 1 1 1 1 0 0 0 0 1 0 2 1 -2 0
+2 2 1 1 1 0 0 0 1 1 0 1 3 1 5
+3 2 1 1 2 1 0 0 2 1 0 1 3 0
+$EndPartitionedEntities
+$Nodes""").replace("2 3 1 3\n1 1", "3 3 1 12\n1 5").replace(
+    "2 1 3 2\n", "2 2 3 1\n").replace("12 2", "2 3 3 1\n12 2")
+good("gmsh_4_partitioned", GMSH_PARTITIONED,
+     settings={"Section/Regions": "shell: h = h"})
 good("gmsh_windows", ("\ufeff" + GMSH_4.replace("\n", "\r\n")).encode())
 
 # --- What is refused -------------------------------------------------------
@@ -447,6 +468,10 @@ bad("gmsh_4_0", GMSH_4.replace("4.1 0 8", "4 0 8"), "version 4.0",
     "msh22")
 bad("gmsh_binary", GMSH_4.replace("4.1 0 8", "4.1 1 8"), "binary",
     "Mesh.Binary = 0")
+bad("gmsh_4_one_partition",
+    GMSH_PARTITIONED.replace("Entities\n2\n1", "Entities\n3\n1"),
+    "2 of the mesh's 3 partitions",
+    "Mesh.PartitionSplitMeshFiles = 0")
 bad("hdf5", b"\x89HDF\r\n\x1a\n\0\0", "HDF5", "meshio")
 bad("netcdf", b"CDF\x01\0\0", "NetCDF", "meshio")
 bad("vtu", '<?xml version="1.0"?>\n<VTKFile>\n', "XML", "meshio")

@@ -703,6 +703,18 @@ def full_disk(folder):
                     limit=20, expect=("case_path.csv", "is the disk full?"))
 
 
+@test(1)
+def full_standard_output(folder):
+    """What is printed and gets lost is an error."""
+    folder.write("case.prm", SWINGING)
+    with open("/dev/full", "w", encoding="utf-8") as full:
+        done = subprocess.run(
+            [folder.program, "case.prm", "--check"], cwd=folder.path,
+            stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    check(done.returncode == 1 and "standard output can't be written" in
+          done.stderr, f"exit code {done.returncode}: {done.stderr}")
+
+
 def main(tests):
     """List the tests (name: function, numbers of ranks), or run one."""
     if sys.argv[1:] == ["--list"]:

@@ -125,15 +125,21 @@ BOOST_AUTO_TEST_CASE(files_are_whole)
                                }),
                     std::runtime_error);
   BOOST_TEST(content(file) == "first");
+  BOOST_TEST(holds(complaint([] {
+                     write_file("unit_test_folder/" + std::string(300, 'n'),
+                                [](std::ostream &) {});
+                   }),
+                   "File name too long"));
   std::filesystem::remove_all("unit_test_folder");
 }
 
 BOOST_AUTO_TEST_CASE(encodings)
 {
-  BOOST_TEST(without_byte_order_mark("\xEF\xBB\xBF*NODE", "f") == "*NODE");
+  BOOST_TEST(plain_text("\xEF\xBB\xBF*NODE", "f") == "*NODE");
+  BOOST_TEST(plain_text("*NODE\r1, 0\r\r", "f") == "*NODE\n1, 0\n\n");
+  BOOST_TEST(plain_text("*NODE\r\n1, 0", "f") == "*NODE\r\n1, 0");
   BOOST_TEST(holds(complaint([] {
-                     without_byte_order_mark(std::string("\xFF\xFE*\0", 4),
-                                             "mesh.inp");
+                     plain_text(std::string("\xFF\xFE*\0", 4), "mesh.inp");
                    }),
                    "mesh.inp"));
   BOOST_TEST(fingerprint("a") != fingerprint("b"));

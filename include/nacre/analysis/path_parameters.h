@@ -273,6 +273,14 @@ namespace Nacre
     void
     declare_curve();
 
+    /** Those of a step's iterations. */
+    void
+    declare_iterations();
+
+    /** Those of motions. */
+    void
+    declare_motion();
+
     void
     read_times(const Constants &constants, PathParameters &path) const;
 
