@@ -197,28 +197,54 @@ namespace Nacre
                            const std::optional<unsigned int> &max_iterations,
                            double                            &rate)
   {
-    PathAttempt attempt;
     if (state.motion.v.l2_norm() == 0.)
-      attempt =
-        find_equilibrium(parameters_, system_, state, state.time, false);
-    else
       {
-        auto newton           = parameters_.newton;
-        newton.max_increment  = 100. * system_.size();
-        newton.max_iterations = max_iterations.value_or(newton.max_iterations);
-        ArcLengthStep step(system_,
-                           state.motion.u,
-                           state.time,
-                           parameters_.rate_step());
-        step.go_to_plane(state.motion.v, 0.);
-        attempt          = {step.solve(newton), state.motion};
-        attempt.motion.u = step.displacement();
-        rate             = step.end_rate();
-        if (attempt.result.converged)
-          state.time = step.time();
+        PathAttempt attempt =
+          find_equilibrium(parameters_, system_, state, state.time, false);
+        if (!attempt.result.converged)
+          return attempt.result.reason;
+        std::move(attempt).accept(system_, state);
+        return "";
       }
+    ArcLengthStep step(system_,
+                       state.motion.u,
+                       state.time,
+                       parameters_.rate_step());
+    step.go_to_plane(state.motion.v, 0.);
+    const std::string failure =
+      solve(max_iterations.value_or(parameters_.newton.max_iterations),
+            step,
+            state);
+    rate = step.end_rate();
+    return failure;
+  }
+
+  std::string
+  EquilibriumCurve::resume(PathState &state)
+  {
+    if (!control_)
+      return settle(state);
+    ArcLengthStep step(system_,
+                       state.motion.u,
+                       state.time,
+                       parameters_.rate_step());
+    step.go_to_value(*control_, state.controlled);
+    return solve(parameters_.newton.max_iterations, step, state);
+  }
+
+  std::string
+  EquilibriumCurve::solve(const unsigned int max_iterations,
+                          ArcLengthStep     &step,
+                          PathState         &state)
+  {
+    auto newton           = parameters_.newton;
+    newton.max_increment  = 100. * system_.size();
+    newton.max_iterations = max_iterations;
+    PathAttempt attempt{step.solve(newton), state.motion};
     if (!attempt.result.converged)
       return attempt.result.reason;
+    attempt.motion.u = step.displacement();
+    state.time       = step.time();
     std::move(attempt).accept(system_, state);
     return "";
   }

@@ -131,7 +131,7 @@ namespace Nacre
     Assert(!parameters_.is_dynamic(), ExcInternalError());
     std::string failure;
     if (curve_)
-      failure = curve_->settle(state);
+      failure = curve_->resume(state);
     else if (Attempt attempt = try_searches(state, 0.);
              attempt.result.converged)
       std::move(attempt).accept(system_, state);

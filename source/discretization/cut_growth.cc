@@ -193,15 +193,7 @@ namespace Nacre
   {
     double size = 0.;
     if (const auto part = cell_of(discretization, tip))
-      for (const auto face : part->cell->face_indices())
-        {
-          const auto reference = part->cell->reference_cell();
-          const auto nodes     = discretization.geometry_nodes(*part);
-          const auto vertex    = [&](const unsigned int i) {
-            return nodes[reference.face_to_cell_vertices(face, i, 1)];
-          };
-          size = std::max(size, vertex(0).distance(vertex(1)));
-        }
+      size = discretization.longest_edge(part->cell);
     return Utilities::MPI::max(size, discretization.communicator());
   }
 

@@ -191,6 +191,14 @@ namespace Nacre
     parts_.remove(dof_handler_, find_removed_parts(*this, points));
   }
 
+  TipDofs *
+  Discretization::tip_dofs() const
+  {
+    if (tip_patches_ != nullptr)
+      return tip_patches_.get();
+    return tip_openings_.get();
+  }
+
   void
   Discretization::number_dofs(const bool extends_parts)
   {
@@ -199,9 +207,7 @@ namespace Nacre
       face_nodes_,
       node_dofs_,
       parts_,
-      tip_patches_ != nullptr  ? tip_patches_->n_owned_functions() :
-      tip_openings_ != nullptr ? tip_openings_->n_owned_functions() :
-                                 0,
+      tip_dofs() != nullptr ? tip_dofs()->n_owned_functions() : 0,
       tip_openings_ != nullptr ? tip_openings_->split_nodes() : SplitNodes());
     if (parts_.is_empty())
       node_constraints_ = make_hanging_node_constraints(dof_handler_);
@@ -227,15 +233,10 @@ namespace Nacre
         [this](const CellPart &part) { return node_positions(part); },
         *numbering_,
         parts_);
-    if (tip_patches_ != nullptr)
+    if (TipDofs *const tips = tip_dofs())
       {
-        tip_patches_->complete(numbering_->ends_of_ranks(), parts_);
-        numbering_->add_relevant_dofs(tip_patches_->dofs());
-      }
-    if (tip_openings_ != nullptr)
-      {
-        tip_openings_->complete(numbering_->ends_of_ranks(), parts_);
-        numbering_->add_relevant_dofs(tip_openings_->dofs());
+        tips->complete(numbering_->ends_of_ranks(), parts_);
+        numbering_->add_relevant_dofs(tips->dofs());
       }
     // No hanging edge has a node of a cut cell.
     const auto hanging = make_hanging_node_constraints(dof_handler_);
@@ -437,6 +438,20 @@ namespace Nacre
   Discretization::node_constraints() const
   {
     return node_constraints_;
+  }
+
+  double
+  Discretization::longest_edge(const CellPart::Cell &cell) const
+  {
+    const auto reference = cell->reference_cell();
+    const auto nodes     = geometry_nodes(cell);
+    double     longest   = 0.;
+    for (const unsigned int face : cell->face_indices())
+      longest =
+        std::max(longest,
+                 nodes[reference.face_to_cell_vertices(face, 0, 1)].distance(
+                   nodes[reference.face_to_cell_vertices(face, 1, 1)]));
+    return longest;
   }
 
   Point<spacedim>

@@ -144,7 +144,8 @@ namespace Nacre
     const std::vector<CutTrace::Tip>             &tips,
     const Positions                              &positions,
     const CellParts                              &parts)
-    : dof_handler_(dof_handler)
+    : TipDofs(dof_handler.get_communicator(), tips.size())
+    , dof_handler_(dof_handler)
     , scalar_fe_(scalar_fe)
     , face_nodes_(face_nodes)
     , node_dofs_(node_dofs)
@@ -157,13 +158,13 @@ namespace Nacre
                 ExcMessage("Cuts/Tips: harmonic functions are those of "
                            "quadrilaterals; choose 'closed' or 'branch "
                            "functions' for triangles."));
-    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+    run_on_all_ranks(communicator_, [&]() {
       for (const auto &cell : dof_handler_.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
             {
               Opening &opening  = openings_[t];
-              opening.owner     = cell->subdomain_id();
+              ranges_[t].owner  = cell->subdomain_id();
               opening.cell      = cell;
               opening.is_inside = parts_.n_parts(cell) != 1 ||
                                   holds_tip(tips_[t], parts_.part(cell));
@@ -174,7 +175,7 @@ namespace Nacre
     });
     share();
     // The edges of ghosts are those of this rank's cells, too.
-    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+    run_on_all_ranks(communicator_, [&]() {
       for (const auto &cell : dof_handler_.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           if (cell->is_ghost() && openings_[t].is_open &&
@@ -366,14 +367,13 @@ namespace Nacre
   void
   TipOpenings::share()
   {
-    const MPI_Comm   communicator = dof_handler_.get_communicator();
-    const auto       me = Utilities::MPI::this_mpi_process(communicator);
+    const auto       me = Utilities::MPI::this_mpi_process(communicator_);
     std::vector<Dof> dofs(node_dofs_.size());
     std::vector<std::vector<double>> mine;
     for (unsigned int t = 0; t < tips_.size(); ++t)
       {
         const Opening &opening = openings_[t];
-        if (opening.owner != me)
+        if (ranges_[t].owner != me)
           continue;
         const Entry &entry = opening.entry;
         mine.push_back({static_cast<double>(t),
@@ -393,15 +393,15 @@ namespace Nacre
                   dofs[node_dofs_[spacedim * entry.nodes[k].node]])})
             mine.back().push_back(number);
       }
-    const auto all = Utilities::MPI::all_gather(communicator, mine);
+    const auto all = Utilities::MPI::all_gather(communicator_, mine);
     for (unsigned int rank = 0; rank < all.size(); ++rank)
       for (const auto &message : all[rank])
         {
-          const auto t    = static_cast<unsigned int>(message[0]);
-          Opening   &here = openings_[t];
-          here.owner      = rank;
-          here.is_inside  = message[1] > 0.;
-          here.is_open    = message[2] > 0.;
+          const auto t     = static_cast<unsigned int>(message[0]);
+          Opening   &here  = openings_[t];
+          ranges_[t].owner = rank;
+          here.is_inside   = message[1] > 0.;
+          here.is_open     = message[2] > 0.;
           Entry entry;
           entry.face  = static_cast<unsigned int>(message[3]);
           entry.place = Point<dim>(message[4], message[5]);
@@ -418,35 +418,15 @@ namespace Nacre
                                     static_cast<Dof>(message[k + 4]));
             }
           here.entry = entry;
+          if (here.is_open)
+            ranges_[t].n_functions = spacedim * entry.nodes.size();
         }
-  }
-
-  unsigned int
-  TipOpenings::n_owned_functions() const
-  {
-    const auto me =
-      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
-    unsigned int n = 0;
-    for (const Opening &opening : openings_)
-      if (opening.owner == me)
-        n += opening.n_functions();
-    return n;
   }
 
   void
   TipOpenings::complete(const std::vector<Dof> &ends, CellParts &parts)
   {
-    std::vector<Dof> next(ends);
-    for (const Opening &opening : openings_)
-      next[opening.owner] -= opening.n_functions();
-    dofs_.set_size(ends.back());
-    for (Opening &opening : openings_)
-      {
-        opening.first_dof = next[opening.owner];
-        next[opening.owner] += opening.n_functions();
-        dofs_.add_range(opening.first_dof, next[opening.owner]);
-      }
-    dofs_.compress();
+    number(ends);
     for (const auto &cell : parts.touched_cells())
       for (unsigned int t = 0; t < tips_.size(); ++t)
         if (openings_[t].is_open && cell->id() == tips_[t].cell)
@@ -458,8 +438,7 @@ namespace Nacre
         for (const auto &node : pair)
           mine.insert(mine.end(), node.begin(), node.end());
     masters_.set_size(ends.back());
-    for (auto &of_rank :
-         Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+    for (auto &of_rank : Utilities::MPI::all_gather(communicator_, mine))
       {
         std::sort(of_rank.begin(), of_rank.end());
         masters_.add_indices(of_rank.begin(), of_rank.end());
@@ -508,8 +487,8 @@ namespace Nacre
               }
         opening.copies.push_back(copies);
       }
-    for (unsigned int k = 0; k < opening.n_functions(); ++k)
-      data.dofs.push_back(opening.first_dof + k);
+    for (unsigned int k = 0; k < ranges_[t].n_functions; ++k)
+      data.dofs.push_back(ranges_[t].first + k);
     auto enrichment = std::make_shared<PartEnrichment>();
     enrichment->shares.push_back(share);
     data.enrichment = enrichment;
@@ -518,13 +497,13 @@ namespace Nacre
   void
   TipOpenings::add_to(AffineConstraints<double> &constraints) const
   {
-    for (const Opening &opening : openings_)
-      for (unsigned int k = 0; k < opening.copies.size(); ++k)
+    for (unsigned int t = 0; t < openings_.size(); ++t)
+      for (unsigned int k = 0; k < openings_[t].copies.size(); ++k)
         for (unsigned int i = 0; i < spacedim; ++i)
           {
-            const auto line           = opening.first_dof + spacedim * k + i;
-            const auto e              = opening.functions->direction(i);
-            const auto &[here, other] = opening.copies[k];
+            const auto line           = ranges_[t].first + spacedim * k + i;
+            const auto e              = openings_[t].functions->direction(i);
+            const auto &[here, other] = openings_[t].copies[k];
             constraints.add_line(line);
             for (unsigned int c = 0; c < spacedim; ++c)
               if (here[c] != other[c] && e[c] != 0.)

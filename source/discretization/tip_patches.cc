@@ -35,15 +35,15 @@ namespace Nacre
                          const std::vector<CutTrace::Line>  &lines,
                          const Positions                    &positions,
                          CellParts                          &parts)
-    : dof_handler_(dof_handler)
+    : TipDofs(dof_handler.get_communicator(), tips.size())
+    , dof_handler_(dof_handler)
     , scalar_fe_(scalar_fe)
     , node_dofs_(node_dofs)
     , tips_(tips)
     , positions_(positions)
     , patches_(tips.size())
   {
-    run_on_all_ranks(dof_handler_.get_communicator(),
-                     [&]() { find_frames(cuts); });
+    run_on_all_ranks(communicator_, [&]() { find_frames(cuts); });
     share_frames();
     find_vertices(cuts.tip_radius);
     check(cuts);
@@ -57,6 +57,7 @@ namespace Nacre
                            TipFunctions::branch_functions(patch.frame,
                                                           patch.poissons_ratio,
                                                           patch.size));
+        ranges_[t].n_functions = patch.functions->size();
         make_path(lines, cuts.tip_radius + 8. * patch.size, t);
       }
     check_bends(cuts);
@@ -70,8 +71,7 @@ namespace Nacre
   void
   TipPatches::find_frames(const Cuts &cuts)
   {
-    const unsigned int me =
-      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+    const unsigned int me = Utilities::MPI::this_mpi_process(communicator_);
     for (const auto &cell : dof_handler_.active_cell_iterators())
       for (unsigned int t = 0; t < tips_.size(); ++t)
         if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
@@ -79,7 +79,7 @@ namespace Nacre
             Patch     &patch   = patches_[t];
             const auto nodes   = positions_(CellPart(cell));
             const auto surface = surface_at(scalar_fe_, nodes, tips_[t].unit);
-            patch.owner        = me;
+            ranges_[t].owner   = me;
             patch.size         = cell->diameter();
             patch.frame        = tip_frame(tips_[t], surface);
             patch.poissons_ratio =
@@ -95,14 +95,13 @@ namespace Nacre
   void
   TipPatches::share_frames()
   {
-    const MPI_Comm     communicator = dof_handler_.get_communicator();
-    const unsigned int me = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int me = Utilities::MPI::this_mpi_process(communicator_);
     // A tip's number and what its cell's rank knows
     std::vector<std::vector<double>> mine;
     for (unsigned int t = 0; t < tips_.size(); ++t)
       {
         const Patch &patch = patches_[t];
-        if (patch.owner != me)
+        if (ranges_[t].owner != me)
           continue;
         mine.push_back(
           {static_cast<double>(t), patch.poissons_ratio, patch.size});
@@ -110,13 +109,13 @@ namespace Nacre
           for (unsigned int c = 0; c < spacedim; ++c)
             mine.back().push_back(axis[c]);
       }
-    const auto all = Utilities::MPI::all_gather(communicator, mine);
+    const auto all = Utilities::MPI::all_gather(communicator_, mine);
     for (unsigned int rank = 0; rank < all.size(); ++rank)
       for (const auto &message : all[rank])
         {
           const auto t         = static_cast<unsigned int>(message[0]);
           Patch     &patch     = patches_[t];
-          patch.owner          = rank;
+          ranges_[t].owner     = rank;
           patch.poissons_ratio = message[1];
           patch.size           = message[2];
           patch.frame.position = tips_[t].position;
@@ -129,10 +128,9 @@ namespace Nacre
   void
   TipPatches::find_vertices(const double radius)
   {
-    const MPI_Comm communicator = dof_handler_.get_communicator();
     for (Patch &patch : patches_)
       {
-        patch.tip_vertices = joined_sets(patch.tip_vertices, communicator);
+        patch.tip_vertices = joined_sets(patch.tip_vertices, communicator_);
         for (const auto &cell : dof_handler_.active_cell_iterators())
           if (cell->is_locally_owned())
             {
@@ -145,7 +143,7 @@ namespace Nacre
                 if (touches || nodes[v].distance(patch.frame.position) < radius)
                   patch.whole_vertices.insert(cell->vertex_dof_index(v, 0));
             }
-        patch.whole_vertices = joined_sets(patch.whole_vertices, communicator);
+        patch.whole_vertices = joined_sets(patch.whole_vertices, communicator_);
       }
   }
 
@@ -179,7 +177,7 @@ namespace Nacre
   {
     // How far the cut may leave the tip's line, in diameters of the cell.
     constexpr double straight = 0.02;
-    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+    run_on_all_ranks(communicator_, [&]() {
       for (const auto &cell : dof_handler_.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           {
@@ -206,7 +204,7 @@ namespace Nacre
   void
   TipPatches::check(const Cuts &cuts) const
   {
-    run_on_all_ranks(dof_handler_.get_communicator(), [&]() {
+    run_on_all_ranks(communicator_, [&]() {
       for (const auto &cell : dof_handler_.active_cell_iterators())
         if (cell->is_locally_owned())
           for (unsigned int t = 0; t < tips_.size(); ++t)
@@ -272,8 +270,7 @@ namespace Nacre
               mine.push_back(line.points[i + 1]);
             }
     std::vector<Point<spacedim>> ends;
-    for (const auto &of_rank :
-         Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator_, mine))
       ends.insert(ends.end(), of_rank.begin(), of_rank.end());
     std::vector<bool> is_used(ends.size() / 2, false);
     patch.path          = {tips_[t].position};
@@ -323,18 +320,6 @@ namespace Nacre
     return left > 0. ? 1 : left < 0. ? -1 : 0;
   }
 
-  unsigned int
-  TipPatches::n_owned_functions() const
-  {
-    const auto me =
-      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
-    unsigned int n = 0;
-    for (const Patch &patch : patches_)
-      if (patch.owner == me)
-        n += patch.functions->size();
-    return n;
-  }
-
   void
   TipPatches::find_sides_of_nodes(const CellParts &parts)
   {
@@ -356,7 +341,7 @@ namespace Nacre
         // A node on both sides, where the crack closes, has no sheet.
         std::map<Dof, std::set<unsigned int>> found;
         for (const auto &of_rank :
-             Utilities::MPI::all_gather(dof_handler_.get_communicator(), mine))
+             Utilities::MPI::all_gather(communicator_, mine))
           for (const auto &[dof, side] : of_rank)
             found[dof].insert(side);
         for (auto &[dof, sides] : found)
@@ -412,21 +397,7 @@ namespace Nacre
   TipPatches::complete(const std::vector<Dof> &ends, CellParts &parts)
   {
     find_sides_of_nodes(parts);
-    std::vector<unsigned int> n_of_rank(ends.size(), 0);
-    for (const Patch &patch : patches_)
-      n_of_rank[patch.owner] += patch.functions->size();
-    std::vector<Dof> next(ends);
-    for (unsigned int rank = 0; rank < ends.size(); ++rank)
-      next[rank] -= n_of_rank[rank];
-    dofs_.set_size(ends.back());
-    for (Patch &patch : patches_)
-      {
-        patch.first_dof = next[patch.owner];
-        next[patch.owner] += patch.functions->size();
-        dofs_.add_range(patch.first_dof, next[patch.owner]);
-      }
-    dofs_.compress();
-
+    number(ends);
     for (const auto &cell : parts.touched_cells())
       for (auto &data : parts.parts(cell))
         {
@@ -438,8 +409,8 @@ namespace Nacre
               {
                 enrichment->shares.push_back(
                   make_share(t, part, parts.is_cut(cell)));
-                for (unsigned int k = 0; k < patches_[t].functions->size(); ++k)
-                  dofs.push_back(patches_[t].first_dof + k);
+                for (unsigned int k = 0; k < ranges_[t].n_functions; ++k)
+                  dofs.push_back(ranges_[t].first + k);
               }
           if (dofs.empty())
             continue;
@@ -452,9 +423,10 @@ namespace Nacre
   TipPatches::add_to_line(const Line                &line,
                           AffineConstraints<double> &constraints) const
   {
-    for (const Patch &patch : patches_)
+    for (unsigned int t = 0; t < patches_.size(); ++t)
       {
-        const auto slave = patch.side_of_node.find(line.dofs[0]);
+        const Patch &patch = patches_[t];
+        const auto   slave = patch.side_of_node.find(line.dofs[0]);
         if (slave == patch.side_of_node.end())
           continue;
         auto rest = patch.functions->values(line.position, slave->second);
@@ -474,7 +446,7 @@ namespace Nacre
           for (unsigned int c = 0; c < spacedim; ++c)
             if (const double entry = rest[k][scalars ? 0 : c]; entry != 0.)
               constraints.add_entry(line.dofs[c],
-                                    patch.first_dof +
+                                    ranges_[t].first +
                                       (scalars ? spacedim * k + c : k),
                                     entry);
       }

@@ -195,15 +195,13 @@ namespace Nacre
             .evaluate(nodes, values);
           // An edge on which the cut ends, coming through the cell, ends the
           // crack. One along which it runs is closed as a whole.
-          result.ends_inside = true;
+          result.ends_inside  = true;
+          result.longest_edge = discretization.longest_edge(cell);
           for (const unsigned int face : cell->face_indices())
             {
               const auto end = [&](const unsigned int i) {
                 return reference.face_to_cell_vertices(face, i, 1);
               };
-              result.longest_edge =
-                std::max(result.longest_edge,
-                         nodes[end(0)].distance(nodes[end(1)]));
               const auto first = reference.template vertex<2>(end(0));
               const auto d     = reference.template vertex<2>(end(1)) - first;
               const auto y     = tip.unit - first;

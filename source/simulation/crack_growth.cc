@@ -422,11 +422,12 @@ namespace Nacre
     const PathParameters &path = problem.path;
     AssertThrow(path.is_linear() || path.type == AnalysisType::quasi_static ||
                   path.type == AnalysisType::relaxation ||
-                  path.type == AnalysisType::arc_length || path.is_dynamic(),
+                  path.follows_curve() || path.is_dynamic(),
                 ExcMessage(
                   "Growth/Tips: with 'Analysis/Type = " + name_of(path.type) +
                   "' cuts don't grow; choose 'linear', 'static', 'relaxation', "
-                  "'arc length' or 'dynamic', or 'Tips = none'."));
+                  "'arc length', 'displacement control' or 'dynamic', or "
+                  "'Tips = none'."));
     AssertThrow(!path.branches.has_several(),
                 ExcMessage("Analysis/Switch branch: several branches begin "
                            "with the cuts of their points, which aren't kept "

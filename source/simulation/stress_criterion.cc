@@ -73,20 +73,6 @@ namespace Nacre
       return place;
     }
 
-    double
-    longest_edge(const Discretization &discretization, const CellPart &part)
-    {
-      const auto reference = part.cell->reference_cell();
-      const auto nodes     = discretization.geometry_nodes(part);
-      double     longest   = 0.;
-      for (const unsigned int face : part.cell->face_indices())
-        longest =
-          std::max(longest,
-                   nodes[reference.face_to_cell_vertices(face, 0, 1)].distance(
-                     nodes[reference.face_to_cell_vertices(face, 1, 1)]));
-      return longest;
-    }
-
     /** Points well inside of a cell. */
     Quadrature<dim>
     inner_points(const Discretization &discretization)
@@ -124,7 +110,7 @@ namespace Nacre
           // Small parts continue their roots' stresses.
           if (discretization.is_small(part))
             continue;
-          const double size = longest_edge(discretization, part);
+          const double size = discretization.longest_edge(part.cell);
           CrackStart   best;
           results.reinit(part);
           for (unsigned int q = 0; q < results.n_points(); ++q)

@@ -175,6 +175,31 @@ def legs(rows):
     check(loads[0] > 1.1 * loads[1], "the load falls")
 
 
+def held(rows):
+    """A lip's displacement is held while a tip advances, and the ends give."""
+    n_steps = 0
+    for before, after in zip(rows, rows[1:]):
+        if before["step"] == after["step"]:
+            continue
+        n_steps += 1
+        check(before["G_crack_end"] >= 1e-4, "above the toughness")
+        check_near("w", after["w"], before["w"], 1e-8 * before["w"])
+        check(after["time"] < before["time"], "the ends go back")
+        check_near("length", after["length_crack"],
+                   before["length_crack"] + 1.5 / 12., 1e-6)
+    check(n_steps >= 2, f"{n_steps} steps")
+    # Equilibria of one length are multiples of each other.
+    n_pairs = 0
+    for row, other in zip(rows, rows[1:]):
+        if row["step"] == other["step"] and row["time"] > 0.:
+            n_pairs += 1
+            check_near("U/w^2", (other["U"] / other["w"]**2) /
+                       (row["U"] / row["w"]**2), 1., 1e-7)
+            check_near("t/w", (other["time"] / other["w"]) /
+                       (row["time"] / row["w"]), 1., 1e-7)
+    check(n_pairs >= 3, f"{n_pairs} pairs")
+
+
 UNIT = {"Study/Degrees": "2"}
 HOLE = {"Growth/Criterion": "strength", "Growth/Strength": "100",
         "Growth/Averaging distance": "0.2", "Growth/Starting cracks": "2",
@@ -192,6 +217,16 @@ PULLED = {**UNIT, "Mid-surface/Subdivisions": "11",
           "Boundary conditions/Edges": "v=0: y = 0, z = 0; v=1: y = 0.15*t, "
           "z = 0", "Growth/Step": "2 cells"}
 
+HELD = {"Analysis/Type": "displacement control", "Analysis/Control": "w",
+        "Analysis/Control values": "9e-4", "Analysis/Control step": "1.5e-4",
+        "Analysis/Maximum steps": "20", "Growth/Maximum steps": "3",
+        # At the tip 1/12, at the ends 0.14 long
+        "Growth/Step": "1.5 cells", "Mid-surface/Grading v":
+        "0.5 + (s - 0.5)*(0.6 + 1.6*(s - 0.5)^2)",
+        "Boundary conditions/Edges": "u=0, u=1: z = 0; v=0: y = -0.005, "
+        "z = 0; v=1: y = 0.005, z = 0", "Quantities/Quantities":
+        "w = displacement y at (0.01, 0.001, 0); U = energy"}
+
 CASES = {
     "inclined": ("inclined_crack.prm", UNIT, (1,), inclined),
     "tube": ("cracked_tube.prm", {**UNIT, "Growth/Maximum steps": "3"}, (1,),
@@ -208,6 +243,7 @@ CASES = {
     "legs": ("double_cantilever.prm",
              {**UNIT, "Growth/Maximum steps": "1",
               "Analysis/Maximum steps": "4"}, (1,), legs),
+    "held": ("../../tests/growth/snap_back.prm", HELD, (1,), held),
     "short": ("short_crack.prm", {}, (1,), short),
     "kirsch": ("plate_with_hole.prm", HOLE, (1,), kirsch),
     "bent": ("starting_cracks.prm", BENT, (1,), bent),

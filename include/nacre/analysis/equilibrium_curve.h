@@ -53,6 +53,13 @@ namespace Nacre
            const std::optional<unsigned int> &max_iterations = {});
 
     /**
+     * settle() after another mesh or longer cuts; if a quantity is controlled,
+     * where it has the value PathState::controlled.
+     */
+    std::string
+    resume(PathState &state);
+
+    /**
      * Move @p state along the curve by a step of @p size (time, as
      * PathState::next_step), backward if that is negative, or by less if that
      * doesn't converge: @p size is then what it has become. Neither is that a
@@ -191,6 +198,12 @@ namespace Nacre
     settle(PathState                         &state,
            const std::optional<unsigned int> &max_iterations,
            double                            &rate);
+
+    /** Solve @p step for @p state; returns "" or why that failed. */
+    std::string
+    solve(const unsigned int max_iterations,
+          ArcLengthStep     &step,
+          PathState         &state);
 
     /** Take the state at the @p crossing as that of the @p point. */
     void

@@ -277,6 +277,10 @@ namespace Nacre
     const AffineConstraints<double> &
     node_constraints() const;
 
+    /** The longest edge of a cell, from vertex to vertex (length). */
+    double
+    longest_edge(const CellPart::Cell &cell) const;
+
     /** A point inside of @p part (length). */
     Point<spacedim>
     point_inside(const CellPart &part) const;
@@ -349,6 +353,10 @@ namespace Nacre
     /** Take away the pieces of the cut shell that hold @p points (length). */
     void
     remove(const std::vector<Point<spacedim>> &points);
+
+    /** The functions of tips, of whatever kind; null: none. */
+    TipDofs *
+    tip_dofs() const;
 
     /** Number the dofs of all parts. */
     void

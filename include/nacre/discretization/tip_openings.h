@@ -4,15 +4,14 @@
 #ifndef nacre_discretization_tip_openings_h
 #define nacre_discretization_tip_openings_h
 
-#include <nacre/discretization/cell_parts.h>
 #include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/part_enrichment.h>
 #include <nacre/discretization/part_numbering.h>
+#include <nacre/discretization/tip_dofs.h>
 #include <nacre/problem/cuts.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,13 +35,9 @@ namespace Nacre
    * their conditions, or where no edge is free of other cuts, the crack closes
    * as it does without.
    */
-  class TipOpenings
+  class TipOpenings : public TipDofs
   {
   public:
-    using Dof = types::global_dof_index;
-    using Positions =
-      std::function<std::vector<Point<spacedim>>(const CellPart &)>;
-
     /**
      * Collective.
      * @param face_nodes, node_dofs those of Discretization
@@ -64,27 +59,10 @@ namespace Nacre
       return split_nodes_;
     }
 
-    /** Of this rank's cells. */
-    unsigned int
-    n_owned_functions() const;
-
-    /**
-     * Set PartData::enrichment and append the functions' dofs to those of the
-     * parts; collective.
-     * @param ends of the ranges of the dofs that ranks own, which the
-     *   functions' dofs end
-     */
     void
-    complete(const std::vector<Dof> &ends, CellParts &parts);
+    complete(const std::vector<Dof> &ends, CellParts &parts) override;
 
-    /** The dofs of all functions, of all ranks. */
-    const IndexSet &
-    dofs() const
-    {
-      return dofs_;
-    }
-
-    /** The dofs of nodes that those follow, of all ranks. */
+    /** The dofs of nodes that those of functions follow, of all ranks. */
     const IndexSet &
     masters() const
     {
@@ -124,19 +102,11 @@ namespace Nacre
     {
       bool                                is_open   = false;
       bool                                is_inside = false;
-      unsigned int                        owner = numbers::invalid_unsigned_int;
       Cell                                cell;
       Entry                               entry;
       std::shared_ptr<const TipFunctions> functions;
-      Dof                                 first_dof = 0;
       /** Of this rank's cells: dofs of a node here, and of its other copy. */
       std::vector<std::array<std::array<Dof, spacedim>, 2>> copies;
-
-      unsigned int
-      n_functions() const
-      {
-        return is_open ? spacedim * entry.nodes.size() : 0;
-      }
     };
 
     /** The entry of the tip @p t into @p cell; false: not a simple one. */
@@ -178,7 +148,6 @@ namespace Nacre
     const CellParts                              &parts_;
     std::vector<Opening>                          openings_; // by tip
     SplitNodes                                    split_nodes_;
-    IndexSet                                      dofs_;
     IndexSet                                      masters_;
   };
 } // namespace Nacre

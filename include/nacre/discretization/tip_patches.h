@@ -4,14 +4,13 @@
 #ifndef nacre_discretization_tip_patches_h
 #define nacre_discretization_tip_patches_h
 
-#include <nacre/discretization/cell_parts.h>
 #include <nacre/discretization/cut_trace.h>
 #include <nacre/discretization/part_enrichment.h>
+#include <nacre/discretization/tip_dofs.h>
 #include <nacre/problem/cuts.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -27,13 +26,9 @@ namespace Nacre
    * blended, and the cells beside the edge on which the discrete crack closes
    * have F whole.
    */
-  class TipPatches
+  class TipPatches : public TipDofs
   {
   public:
-    using Dof = types::global_dof_index;
-    using Positions =
-      std::function<std::vector<Point<spacedim>>(const CellPart &)>;
-
     /**
      * Collective. Makes the cells of the patches touched ones. Throws if a
      * patch has cells of several sizes, holds the tip's cell of another cut or
@@ -50,25 +45,8 @@ namespace Nacre
                const Positions                    &positions,
                CellParts                          &parts);
 
-    /** Of this rank's tips. */
-    unsigned int
-    n_owned_functions() const;
-
-    /**
-     * Set PartData::enrichment and append the functions' dofs to those of the
-     * parts; collective.
-     * @param ends of the ranges of the dofs that ranks own, which the
-     *   functions' dofs end
-     */
     void
-    complete(const std::vector<Dof> &ends, CellParts &parts);
-
-    /** The dofs of all functions, of all ranks. */
-    const IndexSet &
-    dofs() const
-    {
-      return dofs_;
-    }
+    complete(const std::vector<Dof> &ends, CellParts &parts) override;
 
     /** A node that follows others, u_s = sum_a C_sa u_a, and their places. */
     struct Line
@@ -96,7 +74,6 @@ namespace Nacre
     /** A tip, known to all ranks. */
     struct Patch
     {
-      unsigned int      owner = numbers::invalid_unsigned_int;
       TipFunctions::Tip frame;
       double            poissons_ratio = 0.;
       double            size           = 0.;
@@ -108,7 +85,6 @@ namespace Nacre
       std::vector<Point<spacedim>> path;
       /** Sides of the nodes, by their first dofs. */
       std::map<Dof, int> side_of_node;
-      Dof                first_dof = 0;
     };
 
     void
@@ -168,7 +144,6 @@ namespace Nacre
     const std::vector<CutTrace::Tip>   &tips_;
     const Positions                     positions_;
     std::vector<Patch>                  patches_; // by tip
-    IndexSet                            dofs_;
   };
 } // namespace Nacre
 

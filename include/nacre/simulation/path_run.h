@@ -141,7 +141,8 @@ namespace Nacre
     bool
     seeks_critical_state() const
     {
-      return problem_.path.follows_curve() && !problem_.growth.is_prescribed();
+      return problem_.path.type == AnalysisType::arc_length &&
+             !problem_.growth.is_prescribed();
     }
 
     /**
