@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/analysis/path_parameters.h>
+#include <nacre/base/number_range.h>
 #include <nacre/base/text.h>
 
 #include <algorithm>
@@ -16,11 +17,7 @@ namespace Nacre
              const std::string &name,
              const Constants   &constants)
     {
-      const double value = evaluate_number(text, "Analysis/" + name, constants);
-      AssertThrow(value > 0.,
-                  ExcMessage("Analysis/" + name + ": '" + text +
-                             "' is not positive."));
-      return value;
+      return positive_number(text, "Analysis/" + name, constants);
     }
 
     /** Of a path along which t rises and falls. */
@@ -317,10 +314,8 @@ namespace Nacre
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter("Mass damping",
-                  steps_.mass_damping,
-                  "Force per mass and velocity. Units: 1/time.",
-                  prm,
-                  Patterns::Double(0.));
+                  mass_damping_text_,
+                  "Force per mass and velocity. Units: 1/time.");
     add_parameter("Initial displacement",
                   initial_displacement_text_,
                   "In dynamics, along x, y, z, expressions of x, y, z; added "
@@ -389,6 +384,9 @@ namespace Nacre
   {
     PathParameters path;
     static_cast<StepParameters &>(path) = steps_;
+    path.mass_damping                   = nonnegative_number(mass_damping_text_,
+                                           "Analysis/Mass damping",
+                                           constants);
     read_times(constants, path);
     read_start(constants, path);
     read_curve(constants, path);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/discretization/part_quadrature.h>
+#include <nacre/discretization/part_tying.h>
 #include <nacre/discretization/shell_edge_values.h>
 
 #include <deal.II/base/qprojector.h>
@@ -14,12 +16,6 @@ namespace Nacre
     : points(points)
     , shapes(discretization.scalar_fe(), points)
     , geometry(discretization.geometry_fe(), points)
-  {}
-
-  ShellEdgeValues::TyingTable::TyingTable(const Discretization &discretization,
-                                          const MembraneTying  &tying)
-    : shapes(discretization.scalar_fe(), tying.points())
-    , geometry(discretization.geometry_fe(), tying.points())
   {}
 
   ShellEdgeValues::ShellEdgeValues(const Discretization &discretization)
@@ -275,6 +271,8 @@ namespace Nacre
     auto &geometry               = geometry_[side];
     material_ids_[side]          = parts_[side].cell->material_id();
     tied_sides_[side].has_frames = tied_sides_[side].has_rows = false;
+    tied_sides_[side].tying.reset();
+    tied_sides_[side].table.reset();
     table_of(side).geometry.evaluate(discretization_.geometry_nodes(
                                        parts_[side]),
                                      geometry);
@@ -390,23 +388,49 @@ namespace Nacre
   }
 
   const MembraneTying &
+  ShellEdgeValues::piece_tying(const unsigned int side) const
+  {
+    auto &tying = tied_sides_[side].tying;
+    if (tying)
+      return *tying;
+    const CellPart &part   = parts_[side];
+    const auto     &points = table_of(side).points;
+    if (enrichment_of(part) != nullptr)
+      tying = MembraneTying::untied(points);
+    else if (part.is_cut())
+      tying =
+        part_tying(discretization_,
+                   part,
+                   part_quadrature(part.polygon(), discretization_.degree()),
+                   points);
+    else
+      tying.emplace(discretization_.element(), points);
+    return *tying;
+  }
+
+  const MembraneTying &
   ShellEdgeValues::tying(const unsigned int side) const
   {
-    AssertThrow(table_of_side_[side].second != piece_kind,
-                ExcMessage("Cuts/Cuts: sections that couple membrane forces "
-                           "with bending can't be cut."));
-    const auto found = tyings_.find(table_of_side_[side]);
-    if (found != tyings_.end())
-      return found->second;
-    const MembraneTying &tying = tyings_
-                                   .try_emplace(table_of_side_[side],
-                                                discretization_.element(),
-                                                table_of(side).points)
-                                   .first->second;
-    // The samples are the same for all points of a cell.
-    if (!tying_table_)
-      tying_table_.emplace(discretization_, tying);
-    return tying;
+    if (table_of_side_[side].second == piece_kind)
+      return piece_tying(side);
+    return tyings_
+      .try_emplace(table_of_side_[side],
+                   discretization_.element(),
+                   table_of(side).points)
+      .first->second;
+  }
+
+  const ShellEdgeValues::Table &
+  ShellEdgeValues::tying_table(const unsigned int side) const
+  {
+    const CellPart &part = parts_[side];
+    if (enrichment_of(part) != nullptr)
+      return table_of(side);
+    // The samples are the same for all points of a whole cell.
+    auto &table = part.is_cut() ? tied_sides_[side].table : tying_table_;
+    if (!table)
+      table.emplace(discretization_, tying(side).points());
+    return *table;
   }
 
   const std::vector<SurfaceFrame<>> &
@@ -417,9 +441,9 @@ namespace Nacre
       return tied.frames;
     tied.has_frames = true;
     tied.frames.resize(tying(side).points().size());
-    tying_table_->geometry.evaluate(discretization_.geometry_nodes(
-                                      parts_[side]),
-                                    tied.geometry);
+    tying_table(side).geometry.evaluate(discretization_.geometry_nodes(
+                                          parts_[side]),
+                                        tied.geometry);
     for (unsigned int k = 0; k < tied.frames.size(); ++k)
       tied.frames[k] = make_surface_frame(tied.geometry.tangent(k, 0),
                                           tied.geometry.tangent(k, 1),
@@ -436,7 +460,7 @@ namespace Nacre
     tied.has_rows              = true;
     const auto        &frames  = tying_frames(side);
     const auto        &samples = tying(side).samples();
-    const auto        &shapes  = tying_table_->shapes;
+    const auto        &shapes  = tying_shapes(side);
     const unsigned int n       = spacedim * shapes.n_nodes();
     tied.samples.reinit(samples.size(), n, true);
     for (unsigned int s = 0; s < samples.size(); ++s)
@@ -454,6 +478,7 @@ namespace Nacre
                 dN[0] * g_1[c] + dN[1] * g_2[c];
           }
       }
+    tying(side).sum_rows(tied.samples);
     tied.rows.reinit(3 * n_points(), n, true);
     for (unsigned int q = 0; q < n_points(); ++q)
       for (unsigned int v = 0; v < 3; ++v)

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/discretization/part_quadrature.h>
+#include <nacre/discretization/part_tying.h>
 #include <nacre/discretization/shell_values.h>
 #include <nacre/mechanics/shell_strain.h>
 
@@ -86,30 +87,13 @@ namespace Nacre
           part_quadrature(part.polygon(), discretization_.degree());
         const bool  integrates = points_ == Points::rule;
         const auto &targets    = integrates ? rule : of_cell_.quadrature;
-        if (projects_)
-          {
-            const GeometryTable table(discretization_.geometry_fe(),
-                                      rule.get_points());
-            table.evaluate(discretization_.geometry_nodes(part), geometry_);
-            std::vector<double> areas(rule.size());
-            for (unsigned int q = 0; q < rule.size(); ++q)
-              areas[q] =
-                rule.weight(q) * cross_product_3d(geometry_.tangent(q, 0),
-                                                  geometry_.tangent(q, 1))
-                                   .norm();
-            of_part_.emplace(discretization_,
-                             targets,
-                             MembraneTying::projected(discretization_.element(),
-                                                      rule,
-                                                      areas,
-                                                      targets.get_points()),
-                             !integrates);
-          }
-        else
-          of_part_.emplace(discretization_,
-                           targets,
-                           MembraneTying::untied(targets.get_points()),
-                           false);
+        of_part_.emplace(
+          discretization_,
+          targets,
+          projects_ ?
+            part_tying(discretization_, part, rule, targets.get_points()) :
+            MembraneTying::untied(targets.get_points()),
+          projects_ && !integrates);
       }
     else
       of_part_.reset();

@@ -126,17 +126,18 @@ namespace Nacre
                                                   const Voigt<>         &B_nu)
   {
     const auto        &tying    = edge.tying(side);
-    const auto        &shapes   = edge.tying_shapes();
+    const auto        &shapes   = edge.tying_shapes(side);
     const auto        &membrane = edge_membrane_[side];
     const unsigned int n        = spacedim * shapes.n_nodes();
     auto              &force    = membrane_force_row_[side];
     auto              &moment   = membrane_moment_row_[side];
     force.assign(n, 0.);
     moment.assign(n, 0.);
-    std::vector<double> share(tying.samples().size());
+    std::vector<double> share(tying.n_coefficients());
     for (unsigned int v = 0; v < 3; ++v)
       for (const auto &[s, weight] : tying.weights(q, v))
         share[s] += B_nu[v] * weight;
+    tying.spread(share);
     for (unsigned int s = 0; s < share.size(); ++s)
       {
         const auto &sample         = tying.samples()[s];
@@ -216,7 +217,7 @@ namespace Nacre
                                                 const unsigned int     side,
                                                 LocalTerms            &terms)
   {
-    const auto &shapes   = edge.tying_shapes();
+    const auto &shapes   = edge.tying_shapes(side);
     auto       &membrane = edge_membrane_[side];
     membrane.set_resultants(edge.tying(side));
     for (unsigned int k = 0; k < shapes.n_points(); ++k)

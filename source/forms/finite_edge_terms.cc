@@ -182,7 +182,7 @@ namespace Nacre
       return;
     for (unsigned int s = 0; s < edge.n_sides(); ++s)
       membrane_tangents_[s].fill_rows(edge.tying(s),
-                                      edge.tying_shapes(),
+                                      edge.tying_shapes(s),
                                       membrane_[s],
                                       [](const unsigned int a,
                                          const unsigned int c) {
@@ -208,7 +208,7 @@ namespace Nacre
       {
         membrane_[s].set_resultants(edge.tying(s));
         force_.assign(u_[s].size(), Vector3());
-        membrane_[s].add_force(edge.tying_shapes(), force_);
+        membrane_[s].add_force(edge.tying_shapes(s), force_);
         add_residual(edge, s, terms);
       }
   }
@@ -251,7 +251,7 @@ namespace Nacre
                                         LocalTerms            &terms)
   {
     const auto &K =
-      membrane_tangents_[side].force_stiffness(edge.tying_shapes(),
+      membrane_tangents_[side].force_stiffness(edge.tying_shapes(side),
                                                membrane_[side]);
     for (unsigned int a = 0; a < K.m(); ++a)
       for (unsigned int b = 0; b < K.n(); ++b)

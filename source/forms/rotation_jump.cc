@@ -42,13 +42,14 @@ namespace Nacre
                                                          dN,
                                                          shapes.hessian(q, a)));
       }
-    fill_tip_functions(edge, side, q, {{nu_1, nu_2}}, H_nu);
     membrane_moment.clear();
+    coupling = Voigt<>();
     if (section.is_coupled())
       {
         coupling = sigma * (stiffness_at.coupling * dyad);
         fill_membrane_moment(edge.tied_membrane_rows(side), q);
       }
+    fill_tip_functions(edge, side, q, {{nu_1, nu_2}}, H_nu);
   }
 
   void
@@ -62,15 +63,15 @@ namespace Nacre
     tip_rotation.resize(n);
     tip_moment.resize(n);
     const double sigma = n > 0 ? edge.sigma(side, q) : 1.;
+    const auto  &frame = edge.frame(side, q);
     for (unsigned int k = 0; k < n; ++k)
       {
         const auto &psi = edge.tip_function(side, q, k);
         tip_rotation[k] =
           sigma * (t0 * (nu[0] * psi.first[0] + nu[1] * psi.first[1]));
         tip_moment[k] =
-          sigma *
-          (H_nu *
-           ShellStrain::bending(edge.frame(side, q), psi.first, psi.second));
+          sigma * (H_nu * ShellStrain::bending(frame, psi.first, psi.second)) +
+          coupling * ShellStrain::membrane(frame, psi.first[0], psi.first[1]);
       }
   }
 

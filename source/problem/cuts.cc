@@ -3,6 +3,7 @@
 
 #include <nacre/base/expression.h>
 #include <nacre/base/input_file.h>
+#include <nacre/base/number_range.h>
 #include <nacre/base/text.h>
 #include <nacre/problem/cuts.h>
 #include <nacre/problem/midsurface.h>
@@ -400,9 +401,7 @@ namespace Nacre
                   "is. With 0 that zone shrinks as a mesh is refined, and the "
                   "error of stress intensities with the size of the cells; "
                   "with a zone that remains it shrinks with the order of the "
-                  "degree. Units: length.",
-                  prm,
-                  Patterns::Double(0.));
+                  "degree. Units: length.");
   }
 
 
@@ -423,10 +422,11 @@ namespace Nacre
     result.snap          = snap_;
     result.smallest_part = smallest_part_;
     result.tips          = tips_;
-    result.tip_radius    = tip_radius_;
-    AssertThrow(tip_radius_ == 0. || tips_ == CutTips::branch_functions,
+    result.tip_radius =
+      nonnegative_number(tip_radius_, "Cuts/Tip radius", constants);
+    AssertThrow(result.tip_radius == 0. || tips_ == CutTips::branch_functions,
                 ExcMessage("Cuts/Tip radius: found " +
-                           Text::number(tip_radius_) +
+                           Text::number(result.tip_radius) +
                            " with 'Tips = " + name_of(tips_) +
                            "'; only branch functions have a radius."));
     // Names of curves, and the entries that give them.

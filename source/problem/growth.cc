@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/number_range.h>
 #include <nacre/base/text.h>
 #include <nacre/problem/growth.h>
 
@@ -19,17 +20,6 @@ namespace Nacre
     const std::string strength_parameter  = "Growth/Strength";
     const std::string distance_parameter  = "Growth/Averaging distance";
     const std::string starting_parameter  = "Growth/Starting cracks";
-
-    double
-    positive_number(const std::string &text,
-                    const std::string &where,
-                    const Constants   &constants)
-    {
-      const double value = evaluate_number(text, where, constants);
-      AssertThrow(value > 0.,
-                  ExcMessage(where + ": '" + text + "' is not positive."));
-      return value;
-    }
 
     CellLength
     read_cell_length(const std::string &original,

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Nacre authors
 
 #include <nacre/base/cpu_timer.h>
+#include <nacre/base/number_range.h>
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/postprocess/error_estimator.h>
@@ -65,13 +66,11 @@ namespace Nacre
                   prm,
                   Patterns::Double());
     add_parameter("Cells at tips",
-                  values_.tip_size_,
+                  tip_size_,
                   "Each cycle refines the cells that hold a tip of a cut until "
                   "their longest edge is no longer than this, along with all "
                   "cells along that cut; 0: no more than the estimate says. "
-                  "Units: length.",
-                  prm,
-                  Patterns::Double(0.));
+                  "Units: length.");
     add_parameter("Max dofs",
                   values_.max_dofs_,
                   "A mesh that has more degrees of freedom isn't refined any "
@@ -101,6 +100,9 @@ namespace Nacre
     AdaptiveRefinement result = values_;
     if (!result.is_on())
       return result;
+    result.tip_size_ = nonnegative_number(tip_size_,
+                                          "Adaptive refinement/Cells at tips",
+                                          problem.constants);
     result.check(problem);
     if (result.estimator_ == EstimatorType::residual)
       return result;

@@ -147,7 +147,11 @@ namespace Nacre
     const auto   v       = stepped_->system.with_ghosts(before.v);
     const auto   a       = stepped_->system.with_ghosts(before.a);
 
-    const PartTransfer transfer(stepped_->shell.discretization(), {&u, &v, &a});
+    const auto &states     = stepped_->shell.assembly().section_states();
+    const auto  remembered = states.records(stepped_->shell.discretization());
+    const PartTransfer transfer(stepped_->shell.discretization(),
+                                {&u, &v, &a},
+                                states.of_rules());
     assembly_seconds_ += stepped_->system.assembly_seconds();
     auto mesh = stepped_->shell.release_mesh();
     stepped_.reset();
@@ -160,10 +164,12 @@ namespace Nacre
                                                   std::move(mesh),
                                                   log_);
         const auto &discretization = stepped_->shell.discretization();
-        state.motion.u             = transfer.field_on(discretization, 0);
-        state.motion.v             = transfer.field_on(discretization, 1);
-        state.motion.a             = transfer.field_on(discretization, 2);
-        failure                    = stepped_->path.resume(state, release);
+        stepped_->shell.assembly().section_states().take(discretization,
+                                                         transfer);
+        state.motion.u = transfer.field_on(discretization, 0);
+        state.motion.v = transfer.field_on(discretization, 1);
+        state.motion.a = transfer.field_on(discretization, 2);
+        failure        = stepped_->path.resume(state, release);
       }
     // As of a piece that can move freely, on all ranks.
     catch (const ExcMessage &error)
@@ -181,11 +187,14 @@ namespace Nacre
             "prescribe displacements instead of loads.";
     growth_.undo();
     stepped_.reset();
-    stepped_     = std::make_unique<SteppedShell>(communicator_,
+    stepped_ = std::make_unique<SteppedShell>(communicator_,
                                               problem_,
                                               quantities,
                                               nullptr,
                                               log_);
+    stepped_->shell.assembly().section_states().take(
+      stepped_->shell.discretization(),
+      remembered);
     state.motion = before;
     return text.str();
   }

@@ -276,9 +276,11 @@ namespace Nacre
                 ExcMessage("Cuts/Tips: '" + name_of(problem.model.cuts.tips) +
                            "' is for linear sections only," + is_not +
                            "; choose closed."));
-    AssertThrow(!problem.growth.is_on(),
-                ExcMessage("Growth/Tips: cuts grow in linear sections only," +
-                           is_not + "; leave it empty."));
+    AssertThrow(!problem.growth.is_on() || problem.growth.is_prescribed(),
+                ExcMessage("Growth/Criterion: '" +
+                           name_of(problem.growth.criterion) +
+                           "' is for linear sections only," + is_not +
+                           "; choose prescribed."));
     if (section.n_state_variables() == 0)
       return;
     AssertThrow(path.start_from.empty(),

@@ -7,6 +7,7 @@
 // A shell that cuts divide, for tests of its forms.
 
 #include "../finite/finite_shell.h"
+#include <nacre/mechanics/shell_section.h>
 #include <nacre/postprocess/refinement_marking.h>
 #include <nacre/problem/cuts.h>
 
@@ -36,6 +37,12 @@ namespace CutShells
            "\n subsection expression\n  set Position = " + position +
            "\n  set Range u = " + range_u + "\n end\nend\n" + section;
   }
+
+  /** The stack of a laminate that couples membrane and bending. */
+  const std::string laminate =
+    "subsection Section\n set Type = laminate\n subsection Laminate\n"
+    "  set Materials = a: E1 = 25, E2 = 1, nu12 = 0.25, G12 = 0.5\n"
+    "  set Stack = [0/90/30]\n  set Thickness = 0.2\n end\nend\n";
 
   /** A shell and its parts; the cells at @p refined_at are quartered. */
   struct CutShell
@@ -159,11 +166,11 @@ namespace CutShells
       return result;
     }
 
-    TextModel                       parameters;
-    const CutTips                   tips;
-    KinematicsOptions               kinematics;
-    std::unique_ptr<Discretization> discretization;
-    std::unique_ptr<Assembly>       assembly;
+    TextModelOf<ShellSectionParameters> parameters;
+    const CutTips                       tips;
+    KinematicsOptions                   kinematics;
+    std::unique_ptr<Discretization>     discretization;
+    std::unique_ptr<Assembly>           assembly;
   };
 } // namespace CutShells
 

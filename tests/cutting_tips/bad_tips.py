@@ -41,6 +41,8 @@ case("radius_to_other_tip", ["Cuts/Tips", "'crack'", "'Cuts/Tip radius'",
 case("radius_of_closed_tip", ["Cuts/Tip radius", "0.3", "'Tips = closed'",
                               "branch functions"],
      {"Cuts/Tip radius": "0.3", "Cuts/Tips": "closed"}, ["--check"])
+case("radius_negative", ["Cuts/Tip radius", "-1/10", "negative"],
+     {"Cuts/Tip radius": "-1/10"}, ["--check"])
 case("radius_of_bent_surface", ["Cuts/Tips", "'Cuts/Tip radius'",
                                 "60 degrees", "smaller radius"],
      {"Cuts/Tip radius": "0.9", "Mid-surface/expression/Position":

@@ -172,7 +172,7 @@ private:
       {
         membrane[s].set_resultants(edge_.tying(s));
         NodeVectors<Complex> local_force(edge_.shapes(s).n_nodes());
-        membrane[s].add_force(edge_.tying_shapes(), local_force);
+        membrane[s].add_force(edge_.tying_shapes(s), local_force);
         add_nodes(s, local_force);
       }
   }

@@ -213,6 +213,87 @@ test_definite()
     }
 }
 
+/** An isotropic section that says it couples, with a share of its A. */
+struct CoupledIsotropic : LinearElasticSection
+{
+  CoupledIsotropic(const double share)
+    : LinearElasticSection(100., 0.3, 0.05)
+    , share(share)
+  {}
+
+  SectionStiffness
+  stiffness(const SurfaceFrame<> &frame,
+            const SectionPoint   &point) const override
+  {
+    SectionStiffness result = LinearElasticSection::stiffness(frame, point);
+    result.membrane *= share;
+    return result;
+  }
+
+  bool
+  is_coupled() const override
+  {
+    return true;
+  }
+
+  double share;
+};
+
+/**
+ * The bound of sections that couple takes the membrane energy, too. On a
+ * curved surface it is the lower for it, and still above the penalty that the
+ * matrix needs, which is the same whatever the section says of itself.
+ */
+void
+test_bound_on_cylinder(const Element &element)
+{
+  const auto discretization =
+    make_discretization(make_mesh([](const Point<3> &x) {
+                          return Point<3>(2. * std::sin(x[0] / 2.),
+                                          x[1],
+                                          2. * std::cos(x[0] / 2.));
+                        }),
+                        element);
+  const BoundaryConditions conditions;
+  const Loads              loads;
+  const auto               bound = [&](const SectionLaw &section) {
+    return EdgePenalty(*discretization,
+                       section,
+                       element.full_quadrature(),
+                       std::nullopt)
+      .bound();
+  };
+  const LinearElasticSection isotropic(100., 0.3, 0.05);
+  AffineConstraints<double>  none;
+  none.close();
+  const auto is_positive = [&](const double eta) {
+    const auto values = eigenvalues(matrix_of(*discretization,
+                                              isotropic,
+                                              conditions,
+                                              loads,
+                                              MembraneStrain::tied,
+                                              eta),
+                                    none);
+    return values[0] > -1e-12 * values[values.size() - 1];
+  };
+  const double whole = bound(CoupledIsotropic(1.));
+  double       low = 0., high = whole;
+  for (unsigned int k = 0; k < 8; ++k)
+    {
+      const double middle                = 0.5 * (low + high);
+      (is_positive(middle) ? high : low) = middle;
+    }
+  const std::string name = "cylinder, " + label(element) + ": ";
+  check_below(name + "bound over that of bending alone",
+              whole / bound(isotropic),
+              0.5);
+  check_above(name + "positive at that bound", is_positive(whole), 0.5);
+  check_above(name + "least penalty over that bound", high / whole, 0.3);
+  check_below(name + "bound of a third of A over the default penalty",
+              bound(CoupledIsotropic(1. / 3.)) / (2. * whole),
+              1.);
+}
+
 /**
  * Membrane and bending strains are constant: u linear in the plane, w
  * quadratic; displacements on all edges, rotations on three, the moment on the
@@ -287,6 +368,7 @@ main(int argc, char *argv[])
   test_orientation();
   test_isotropic();
   test_definite();
+  test_bound_on_cylinder(lagrange(2));
   for (const auto &element : {lagrange(2), lagrange(3), serendipity, triangle})
     test_patch(element);
   return n_failures > 0;

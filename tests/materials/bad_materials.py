@@ -71,3 +71,6 @@ metal("corotational", ["Discretization/Kinematics", "corotational", "finite"],
       **{"Discretization/Kinematics": "corotational"})
 metal("linear_analysis", ["Analysis/Type", "linear", "static"],
       **{"Discretization/Kinematics": "linear", "Analysis/Type": "linear"})
+metal("growth", ["Growth/Criterion", "energy release rate", "prescribed"],
+      **{"Cuts/Cuts": "tear: uv (-0.1, 0.45) (0.45, 0.45)",
+         "Growth/Tips": "tear end", "Growth/Toughness": "1"})

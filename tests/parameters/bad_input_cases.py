@@ -131,6 +131,8 @@ case("analysis_scheme", ["Scheme", "euler", "implicit euler"],
      {"Analysis/Type": "dynamic", "Analysis/Scheme": "euler"})
 case("analysis_spectral_radius", ["Spectral radius", "2"],
      {"Analysis/Type": "dynamic", "Analysis/Spectral radius": "2"})
+case("analysis_mass_damping", ["Analysis/Mass damping", "-a", "negative"],
+     {"Analysis/Type": "dynamic", "Analysis/Mass damping": "-a"})
 case("analysis_time_constant", ["'t'", "time", "constant"],
      {"Loads/Force per area": "0, 0, -q*t"},
      change=("set Constants = a = 2, q = 0.01",
@@ -152,6 +154,9 @@ case("adaptive_goal_unknown",
      dict(GOAL, **{"Adaptive refinement/Goal": "wmax"}))
 case("adaptive_tips", ["Adaptive refinement/Cells at tips", "no cuts"],
      dict(CYCLES, **{"Adaptive refinement/Cells at tips": "0.1"}))
+case("adaptive_tips_negative",
+     ["Adaptive refinement/Cells at tips", "-a/10", "negative"],
+     dict(CYCLES, **{"Adaptive refinement/Cells at tips": "-a/10"}))
 case("adaptive_motion", ["Adaptive refinement/Cycles", "keeps its mesh"],
      dict(CYCLES, **{"Analysis/Type": "dynamic"}))
 case("adaptive_path_goal", ["Adaptive refinement/Estimator", "linear analyses"],

@@ -305,6 +305,7 @@ namespace Nacre
     std::string    control_text_              = "";
     std::string    control_values_text_       = "";
     std::string    control_step_text_         = "default";
+    std::string    mass_damping_text_         = "0";
     std::string    initial_displacement_text_ = "0, 0, 0";
     std::string    initial_velocity_text_     = "0, 0, 0";
   };

@@ -196,15 +196,19 @@ namespace Nacre
     }
 
     /**
-     * @name Tied membrane strains at the points of the edge
+     * @name Membrane strains at the points of the edge
      *
-     * Only sections that couple membrane and bending want them: all is computed
-     * when it is first asked for after reinit().
+     * They are tied as those of ShellCellValues: interpolated on whole cells,
+     * projected on parts of divided ones, and those of the displacement itself
+     * on parts with tip functions. Only sections that couple membrane and
+     * bending want them: all is computed when it is first asked for after
+     * reinit().
      */
     //@{
     /**
      * Rows of a side, [3 q + v][3 a + c]: Voigt component v at the point q of
-     * the displacement e_c of the node a.
+     * the displacement e_c of the node a. Tip functions that aren't scalars
+     * have the strain of the displacement.
      */
     const FullMatrix<double> &
     tied_membrane_rows(const unsigned int side) const;
@@ -213,11 +217,11 @@ namespace Nacre
     const MembraneTying &
     tying(const unsigned int side) const;
 
-    /** Shape functions at the tying points. */
+    /** Shape functions at the tying points of a side. */
     const ShapeTable &
-    tying_shapes() const
+    tying_shapes(const unsigned int side) const
     {
-      return tying_table_->shapes;
+      return tying_table(side).shapes;
     }
 
     /** Frames at the tying points of a side, without second derivatives. */
@@ -246,25 +250,18 @@ namespace Nacre
       GeometryTable           geometry;
     };
 
-    /** Where tied membrane strains are sampled, for any points of an edge. */
-    struct TyingTable
-    {
-      TyingTable(const Discretization &discretization,
-                 const MembraneTying  &tying);
-
-      ShapeTable    shapes;
-      GeometryTable geometry;
-    };
-
     /** What belongs to the tied strains of one side. */
     struct TiedSide
     {
-      bool                        has_frames = false;
-      bool                        has_rows   = false;
-      std::vector<SurfaceFrame<>> frames;
-      FullMatrix<double>          rows;
-      FullMatrix<double>          samples;
-      GeometryTable::Values       geometry;
+      /** Those of a piece; the table is that of a part of a divided cell. */
+      std::optional<MembraneTying> tying;
+      std::optional<Table>         table;
+      bool                         has_frames = false;
+      bool                         has_rows   = false;
+      std::vector<SurfaceFrame<>>  frames;
+      FullMatrix<double>           rows;
+      FullMatrix<double>           samples;
+      GeometryTable::Values        geometry;
     };
 
     /** The tip functions of the part that are in use. */
@@ -290,6 +287,14 @@ namespace Nacre
       const auto [face, kind] = table_of_side_[side];
       return kind == piece_kind ? *piece_tables_[side] : *tables_[face][kind];
     }
+
+    /** That of the tying points of a side. */
+    const Table &
+    tying_table(const unsigned int side) const;
+
+    /** tying() of a side that is a piece. */
+    const MembraneTying &
+    piece_tying(const unsigned int side) const;
 
     /** The part of a side, and the table of the edge or its half. */
     void
@@ -390,9 +395,10 @@ namespace Nacre
     /** @name For tied strains only; tyings by face and kind of the table */
     //@{
     mutable std::map<std::pair<unsigned int, unsigned int>, MembraneTying>
-                                      tyings_;
-    mutable std::optional<TyingTable> tying_table_;
-    mutable std::array<TiedSide, 2>   tied_sides_;
+      tyings_;
+    /** Of whole cells, whose tying points are the same. */
+    mutable std::optional<Table>    tying_table_;
+    mutable std::array<TiedSide, 2> tied_sides_;
     //@}
     /** Index 3 a + c of each local dof. */
     std::vector<unsigned int> local_to_node_;

@@ -235,9 +235,7 @@ namespace Nacre
     const ShapeTable &
     tying_shapes() const
     {
-      // tying() makes them.
-      tying();
-      return edge_.tying_shapes();
+      return edge_.tying_shapes(side_);
     }
 
     const SurfaceFrame<> &

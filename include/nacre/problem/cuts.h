@@ -126,7 +126,7 @@ namespace Nacre
     double      snap_          = Cuts().snap;
     double      smallest_part_ = Cuts().smallest_part;
     CutTips     tips_          = Cuts().tips;
-    double      tip_radius_    = Cuts().tip_radius;
+    std::string tip_radius_    = "0";
 
     MPI_Comm    communicator_ = MPI_COMM_SELF;
     std::string folder_;

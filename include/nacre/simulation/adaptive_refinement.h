@@ -165,6 +165,7 @@ namespace Nacre
   private:
     /** As read; its goal isn't found yet. */
     AdaptiveRefinement values_;
+    std::string        tip_size_ = "0";
   };
 } // namespace Nacre
 
