@@ -18,9 +18,9 @@ namespace Nacre
     double
     checked_nu(const double nu, const std::string &where)
     {
-      AssertThrow(nu > -1. && nu < 0.5,
+      AssertThrow(nu > -1. && nu <= 0.5,
                   ExcMessage(where + ": " + Text::number(nu) +
-                             "; it must be larger than -1 and smaller than "
+                             "; it must be larger than -1 and at most "
                              "0.5."));
       return nu;
     }
@@ -151,7 +151,7 @@ namespace Nacre
                   "Units: force/length^2.");
     add_parameter("Poisson's ratio",
                   nu_,
-                  "Poisson's ratio nu, larger than -1 and smaller than 0.5. "
+                  "Poisson's ratio nu, larger than -1 and at most 0.5. "
                   "Units: none.");
     add_parameter("Thickness",
                   thickness_,

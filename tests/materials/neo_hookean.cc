@@ -59,6 +59,14 @@ test_derivatives()
                 (rest.bending - zero.tangent.bending).norm() /
                   rest.bending.norm(),
               1e-13);
+  // A sheet that keeps its volume: E = 3 mu, nu = 1/2
+  const auto linear = LinearElasticSection(3., 0.5, 0.3)
+                        .stiffness(skewed_frame(), Point<3>());
+  check_below("isotropic section of nu = 1/2",
+              (rest.membrane - linear.membrane).norm() /
+                  linear.membrane.norm() +
+                (rest.bending - linear.bending).norm() / linear.bending.norm(),
+              1e-12);
   // C_11 of the lower face is negative
   const auto impossible = straight.response({{0., 0., 0., 4., 0., 0.}});
   check_below("no answer to impossible strains",

@@ -203,11 +203,11 @@ case("youngs_modulus_zero",
 case("youngs_modulus_negative_somewhere",
      ["Section/Young's modulus", "at the point (", "must be positive"],
      {"Section/Young's modulus": "1 - x"})
-for name, value in (("half", "0.5"), ("too_large", "0.7"),
+for name, value in (("too_large", "0.7"), ("above_half", "0.501"),
                     ("minus_one", "-1")):
     case("poissons_ratio_" + name,
          ["Section/Poisson's ratio", value, "larger than -1",
-          "smaller than 0.5"],
+          "at most 0.5"],
          {"Section/Poisson's ratio": value})
 case("thickness_vanishes",
      ["computation failed", "values of a reasonable size"],

@@ -191,7 +191,7 @@ case("unknown_region",
 for name, value, text in (("unknown_key", "shell: t = 1", "unknown value 't'"),
                           ("negative", "shell: h = -1", "must be positive"),
                           ("no_colon", "shell", "has no ':'"),
-                          ("nu", "shell: nu = 0.5", "smaller than 0.5"),
+                          ("nu", "shell: nu = 0.6", "at most 0.5"),
                           ("twice", "shell: h = 1; shell: h = 2", "twice")):
     case("region_" + name, ["Section/Regions", text], GOOD,
          {"Section/Regions": value})
