@@ -40,6 +40,18 @@ PLATES = [("centre", .2, 1, 1.0553776, 1.0177124),
           ("edge", .2, 1, 1.3680397, 1.021464),
           ("edge", .5, 1, 2.8254653, 1.134243),
           ("edge", .5, .5, 3.008758, 1.157227)]
+# The rest of the reference, for tips with functions
+MORE_PLATES = [("centre", .3, 1, 1.1231911, None),
+               ("centre", .2, 3, 1.0245902, None),
+               ("centre", .3, 3, 1.0577474, None),
+               ("centre", .5, 3, 1.186672, 1.1311),
+               ("centre", .1, 3, None, 1.0042410),
+               ("edge", .3, 1, 1.6611218, None),
+               ("edge", .5, 1.5, 2.8245871, None),
+               ("edge", .4, 2, 2.1114130, None),
+               ("edge", .5, 2, 2.8245794, None)]
+# nu, F in bending: centre, a/W = 0.5, H/W = 1
+POISSON = [(0, 1.137266), (.25, 1.132899), (.3, 1.132315), (.5, 1.130730)]
 # R/h, shell parameter, A_m, A_b, g
 CYLINDERS = [(100, .5, 1.056193, .084205, 1.116651),
              (100, 1, 1.197637, .192525, 1.439387),
@@ -47,6 +59,12 @@ CYLINDERS = [(100, .5, 1.056193, .084205, 1.116651),
              (1000, .5, 1.056420, .086446, 1.117085),
              (1000, 1, 1.198208, .194406, 1.440658),
              (1000, 2, 1.613426, .337019, 2.617783)]
+MORE_CYLINDERS = [(100, 4, 2.582478, .314864, 6.683788),
+                  (1000, 4, 2.587216, .316428, 6.707465),
+                  (10000, .5, 1.056440, .086668, 1.117128),
+                  (10000, 1, 1.198263, .194580, 1.440783),
+                  (10000, 2, 1.613576, .337111, 2.618240),
+                  (10000, 4, 2.587681, .316495, 6.709840)]
 AXIAL_CUTS = [(True, *row) for row in CYLINDERS]
 CIRCUMFERENTIAL_CUTS = [(False, 100, .5, 1.012960, .059984, 1.026427),
                         (False, 100, 1, 1.050086, .141684, 1.105134),
@@ -292,12 +310,13 @@ def of_cut(radii, names):
                      [f"G = energy release rate {of}", "U = energy"])
 
 
-def cut_factors(*arguments, **more):
+def cut_factors(*arguments, nu=NU, **more):
     """As factors()."""
+    more["more"] = {"Section/Poisson's ratio": nu, **(more.get("more") or {})}
     root = math.sqrt(math.pi * arguments[2])
     found = cut_plate(*arguments, (1, 0), **more)
     result = [found["K_I"] * H / root, math.sqrt(found["G"] * E * H) / root]
-    stiffness = E * H**3 / (12 * (1 - NU**2)) * (1 - NU) * (3 + NU)
+    stiffness = E * H**3 / (12 * (1 - nu**2)) * (1 - nu) * (3 + nu)
     found = cut_plate(*arguments, (0, 1), **more)
     return result + [found["K_M"] / root,
                      math.sqrt(found["G"] * stiffness) / root]
@@ -377,16 +396,16 @@ def cut_difference(nacre):
 def cut_cylinder(nacre, axial, ratio, shell, cells=None, inside=0, more=None):
     """A_m, A_b, g of a cylinder under a pressure, or of one that is pulled.
 
-    cells: before the tip, behind it, across, and on a; inside: the share of
-    its cell by which the cut goes on behind the line of the mesh."""
+    cells: before the tip, behind it and across; inside: the share of its cell
+    by which the cut goes on behind the line of the mesh."""
     h = 1 / ratio
     a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
     # What a crack around the axis disturbs reaches far along it; long models
     # of thin shells are singular to working precision with such small cells.
     far = (min(16 * a, 1.2) if axial else
            min(64 * a, 1.5 if ratio <= 100 else 0.9))
-    before, behind, across = (14, 24, 45) if axial else (14, 30, 57)
-    n, size = before + behind, a / 20 / far
+    before, behind, across = cells or ((14, 24, 45) if axial else (14, 30, 57))
+    n, size = before + behind, 0.7 * a / before / far
     power = 3 if axial else 4
     settings = {
         "Constants": f"a = {a!r}, h0 = {h!r}",
@@ -498,7 +517,7 @@ def tip_functions(nacre):
         print()
     head("crack", "a/W", "H/W", "tension", "from K_I", "from G", "bending",
          "from K_M", "from G")
-    for kind, a, height, tension, bending in PLATES:
+    for kind, a, height, tension, bending in PLATES + MORE_PLATES:
         across = 2 * math.floor(23 * height) - 1
         t_k, t_g, b_k, b_g = cut_factors(
             nacre, kind, a, height, cells=(12, 11, across), more=UNIFORM)
@@ -506,14 +525,20 @@ def tip_functions(nacre):
              near(t_g, tension), bending or "", near(b_k, bending),
              near(b_g, bending))
     print()
+    head("nu", "bending", "from K_M", "from G")
+    for nu, bending in POISSON:
+        found = cut_factors(nacre, "centre", .5, 1, cells=(12, 11, 45),
+                            nu=nu, more=UNIFORM)
+        line(nu, bending, *(near(value, bending) for value in found[2:]))
+    print()
     inclined_cuts(nacre, (0, 1), {
         **UNIFORM, "Quantities/Quantities": of_cut(
             "0.1, 0.45", ("K_I", "K_II")) +
         "; kink = kink angle of crack end radii 0.1, 0.45"}, near)
     print()
     # Thinner ones around the axis are singular to working precision.
-    cylinder_table(nacre, AXIAL_CUTS + CIRCUMFERENTIAL_CUTS[:2], inside=.5,
-                   more=TIPS)
+    cylinder_table(nacre, AXIAL_CUTS + [(True, *row) for row in MORE_CYLINDERS]
+                   + CIRCUMFERENTIAL_CUTS[:2], inside=.5, more=TIPS)
 
 
 TABLES = {table.__name__: table

@@ -69,9 +69,12 @@ CASES = {
     "pullout": Case("pullout", "3.5 pull-out", (12, 8)),
     "pinched_cylinder": Case("pinched_cylinder", "3.6 pinched cylinder",
                              (24, 24)),
+    "semicylinder_isotropic": Case(
+        "semicylinder", "3.7 semicylinder", (12, 12)),
     **{f"semicylinder_{lay_up}": Case(
-        "semicylinder", "3.7 semicylinder", (12, 12), laminate(lay_up))
-       for lay_up in LAMINATES},
+        "semicylinder", "3.7 semicylinder", (12, 12),
+        {"Study/Degrees": 4, **laminate(lay_up)})
+       for lay_up in LAMINATES[1:]},
     **{f"roof_thick_{lay_up}": Case(
         "roof", "3.8 roof, h = 12.7", (8, 8), laminate(lay_up))
        for lay_up in LAMINATES},
