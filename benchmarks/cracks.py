@@ -537,8 +537,11 @@ def tip_functions(nacre):
         "; kink = kink angle of crack end radii 0.1, 0.45"}, near)
     print()
     # Thinner ones around the axis are singular to working precision.
-    cylinder_table(nacre, AXIAL_CUTS + [(True, *row) for row in MORE_CYLINDERS]
-                   + CIRCUMFERENTIAL_CUTS[:2], inside=.5, more=TIPS)
+    more = [(True, *row) for row in MORE_CYLINDERS]
+    cylinder_table(nacre, AXIAL_CUTS + more + CIRCUMFERENTIAL_CUTS[:2],
+                   inside=.5, more=TIPS)
+    print()
+    cylinder_table(nacre, more[:2], cells=(20, 34, 65), inside=.5, more=TIPS)
 
 
 TABLES = {table.__name__: table
