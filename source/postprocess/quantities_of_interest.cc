@@ -3,6 +3,7 @@
 
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
+#include <nacre/mechanics/j2_plasticity.h>
 #include <nacre/postprocess/crack_quantities.h>
 #include <nacre/postprocess/cut_quantities.h>
 #include <nacre/postprocess/error_norms.h>
@@ -12,6 +13,7 @@
 #include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
+#include <nacre/postprocess/state_quantities.h>
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/midsurface.h>
 
@@ -150,6 +152,7 @@ namespace Nacre
         {"membrane energy", of_energies(&Energies::membrane), false},
         {"bending energy", of_energies(&Energies::bending), false},
         {"edge energy", of_energies(&Energies::edge), false},
+        {"plastic dissipation", plastic_dissipation, false},
         {"foundation energy", of_energies(&Energies::foundation), false},
         {"kinetic energy", kinetic_energy, false},
         {"total energy", total_energy, false},
@@ -330,6 +333,7 @@ namespace Nacre
                const Midsurface               &midsurface,
                const Cuts                     &cuts,
                const ExactSolution            &exact_solution,
+               const SectionLaw               &section,
                const Constants                &constants)
     {
       const std::string kind = phrase.text;
@@ -376,6 +380,21 @@ namespace Nacre
       for (const auto &[name, ply_kind] : ply_kinds())
         if (phrase.take(name))
           return parse_ply(quantity, phrase, ply_kind, constants);
+      const auto state_results = section.state_result_names();
+      if (const auto of_state =
+            parse_state_quantity(phrase, state_results, constants))
+        {
+          quantity.point    = of_state->point;
+          quantity.evaluate = [of_state](const SolvedShell &shell) {
+            return evaluate_state_quantity(shell, *of_state);
+          };
+          return;
+        }
+      for (const auto &name : J2Plasticity::result_names)
+        AssertThrow(!Phrase(phrase).take(name) &&
+                      !Phrase(phrase).take("largest " + std::string(name)),
+                    ExcMessage(phrase.where + ": the section has no '" + name +
+                               "'; 'Section/Type' must be 'elastoplastic'."));
       if (const auto extreme = parse_extreme_stress(phrase))
         {
           quantity.evaluate = [=](const SolvedShell &shell) {
@@ -460,7 +479,10 @@ namespace Nacre
       "x|y|z|(a, b, c) at (point), of the normal; components in the axes of "
       "'Output/Reference direction', or 'along x|y|z|(a, b, c)' before 'at'; "
       "largest|smallest principal stress, largest von Mises stress "
-      "bottom|middle|top, over the nodes of all cells; in laminates ply "
+      "bottom|middle|top, over the nodes of all cells; of metals "
+      "accumulated plastic strain bottom|middle|top at (point), largest "
+      "accumulated plastic strain bottom|middle|top, plastic dissipation; in "
+      "laminates ply "
       "stress|strain 1|2|12 of NUMBER bottom|top at "
       "(point), Tsai-Wu index at (point), maximum stress index at (point), the "
       "largest of all plies; of cuts length of CUT, opening "
@@ -491,6 +513,11 @@ namespace Nacre
       names.push_back(name);
     for (const auto &name : names_of<ExtremeStress::Kind>())
       names.push_back(name);
+    for (const std::string name : J2Plasticity::result_names)
+      {
+        names.push_back(name);
+        names.push_back("largest " + name);
+      }
     for (const auto &name : names_of<CrackQuantity::Kind>())
       names.push_back(name);
     for (const auto &kind : ply_kinds())
@@ -508,6 +535,7 @@ namespace Nacre
   QuantityParameters::make(const Midsurface    &midsurface,
                            const Cuts          &cuts,
                            const ExactSolution &exact_solution,
+                           const SectionLaw    &section,
                            const Constants     &constants) const
   {
     const std::string       parameter = "Quantities/Quantities";
@@ -545,6 +573,7 @@ namespace Nacre
                    midsurface,
                    cuts,
                    exact_solution,
+                   section,
                    constants);
         quantities.push_back(std::move(quantity));
       }
