@@ -72,7 +72,8 @@ metal("corotational", ["Discretization/Kinematics", "corotational", "finite"],
 metal("linear_analysis", ["Analysis/Type", "linear", "static"],
       **{"Discretization/Kinematics": "linear", "Analysis/Type": "linear"})
 RESULT = "Quantities/Quantities"
-rubber("plastic_strain", [RESULT, "accumulated plastic strain", "elastoplastic"],
+rubber("plastic_strain",
+       [RESULT, "accumulated plastic strain", "elastoplastic"],
        **{RESULT: "a = accumulated plastic strain top at (0, 0, 0)"})
 metal("plastic_strain_face", [RESULT, "face", "'up'", "middle"],
       **{RESULT: "a = largest accumulated plastic strain up"})
