@@ -253,9 +253,13 @@ namespace Nacre
         for (const auto &known : basis)
           {
             const double part = component.direction * known.direction;
-            if (std::abs(part) > largest)
+            // Of a condition of several directions others are named rather
+            // than its own.
+            const double weight =
+              std::abs(part) * (*known.source == *component.source ? 1e-3 : 1.);
+            if (weight > largest)
               {
-                largest = std::abs(part);
+                largest = weight;
                 nearest = known.source;
               }
             rest -= part * known.direction;

@@ -127,6 +127,31 @@ namespace Nacre
 
   template <typename Material>
   std::vector<double>
+  IntegratedSection<Material>::state_results(const double        side,
+                                             const SectionState &state) const
+  {
+    std::vector<double> results = interpolate(state, 0.5 * side);
+    results.resize(Material::result_names.size());
+    return results;
+  }
+
+  template <typename Material>
+  double
+  IntegratedSection<Material>::dissipated_energy(
+    const SectionPoint &point,
+    const SectionState &state) const
+  {
+    const Material material = material_at(point);
+    const double   h        = thickness(point);
+    double         sum      = 0.;
+    for (unsigned int q = 0; q < rule_.size(); ++q)
+      sum += rule_.weight(q) * h *
+             material.dissipated(part(state, Material::n_state_variables, q));
+    return sum;
+  }
+
+  template <typename Material>
+  std::vector<double>
   IntegratedSection<Material>::interpolate(const SectionState &state,
                                            const double        height) const
   {

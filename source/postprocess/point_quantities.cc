@@ -87,17 +87,6 @@ namespace Nacre
       return text + " at (x, y, z)'";
     }
 
-    Face
-    parse_face(const std::string &word, const QuantityPhrase &phrase)
-    {
-      const auto face = find_value<Face>(word);
-      AssertThrow(
-        face,
-        ExcMessage(
-          Text::unknown_name(phrase.where, "face", word, names_of<Face>())));
-      return *face;
-    }
-
     Tensor<1, spacedim>
     parse_vector(const std::string    &word,
                  const QuantityPhrase &phrase,
@@ -213,23 +202,69 @@ namespace Nacre
     return {};
   }
 
+  Face
+  parse_face(const std::string &word, const QuantityPhrase &phrase)
+  {
+    const auto face = find_value<Face>(word);
+    AssertThrow(
+      face,
+      ExcMessage(
+        Text::unknown_name(phrase.where, "face", word, names_of<Face>())));
+    return *face;
+  }
+
+  double
+  value_at_point(const ShellState                                  &state,
+                 const Point<spacedim>                             &point,
+                 const std::string                                 &where,
+                 const std::function<double(const PointResults &)> &value,
+                 const bool                                         with_shear)
+  {
+    const auto &discretization = state.discretization;
+    const auto  place          = discretization.locate(point, where);
+    double      result         = 0.;
+    run_on_all_ranks(discretization.communicator(), [&]() {
+      if (!place.is_mine)
+        return;
+      CellResults results(state, Quadrature<dim>(place.unit), with_shear);
+      results.reinit(place.part);
+      result = value(results.at(0));
+    });
+    return Utilities::MPI::sum(result, discretization.communicator());
+  }
+
+  double
+  largest_value(const ShellState                                  &state,
+                const std::function<double(const PointResults &)> &value)
+  {
+    const auto &discretization = state.discretization;
+    double      largest        = -std::numeric_limits<double>::infinity();
+    run_on_all_ranks(discretization.communicator(), [&]() {
+      CellResults results(
+        state,
+        Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
+        false,
+        true);
+      for (const CellPart &part : discretization.owned_parts())
+        {
+          results.reinit(part);
+          for (unsigned int q = 0; q < results.n_points(); ++q)
+            largest = std::max(largest, value(results.at(q)));
+        }
+    });
+    return Utilities::MPI::max(largest, discretization.communicator());
+  }
+
   double
   evaluate_point_quantity(const ShellState    &state,
                           const PointQuantity &quantity)
   {
-    const auto &discretization = state.discretization;
-    const auto  place = discretization.locate(quantity.point, quantity.where);
-    double      value = 0.;
-    run_on_all_ranks(discretization.communicator(), [&]() {
-      if (!place.is_mine)
-        return;
-      CellResults results(state,
-                          Quadrature<dim>(place.unit),
-                          quantity.kind == Kind::transverse_shear);
-      results.reinit(place.part);
-      value = value_of(quantity, results.at(0));
-    });
-    return Utilities::MPI::sum(value, discretization.communicator());
+    return value_at_point(
+      state,
+      quantity.point,
+      quantity.where,
+      [&](const PointResults &results) { return value_of(quantity, results); },
+      quantity.kind == Kind::transverse_shear);
   }
 
   TrilinosWrappers::MPI::Vector
@@ -326,32 +361,14 @@ namespace Nacre
   evaluate_extreme_stress(const ShellState    &state,
                           const ExtremeStress &quantity)
   {
-    using Extreme               = ExtremeStress::Kind;
-    const auto  &discretization = state.discretization;
+    using Extreme     = ExtremeStress::Kind;
     const double sign = quantity.kind == Extreme::smallest_principal ? -1. : 1.;
-    double       largest = -std::numeric_limits<double>::infinity();
-    run_on_all_ranks(discretization.communicator(), [&]() {
-      CellResults results(
-        state,
-        Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
-        false,
-        true);
-      for (const CellPart &part : discretization.owned_parts())
-        {
-          results.reinit(part);
-          for (unsigned int q = 0; q < results.n_points(); ++q)
-            {
-              const PointResults r = results.at(q);
-              const auto        &stress =
-                r.stress[static_cast<unsigned int>(quantity.face)];
-              const double value =
-                quantity.kind == Extreme::largest_von_mises ?
-                  r.von_mises(quantity.face) :
-                  r.principal(stress)[sign > 0. ? 0 : 1].value;
-              largest = std::max(largest, sign * value);
-            }
-        }
-    });
-    return sign * Utilities::MPI::max(largest, discretization.communicator());
+    return sign * largest_value(state, [&](const PointResults &r) {
+             const auto &stress =
+               r.stress[static_cast<unsigned int>(quantity.face)];
+             return quantity.kind == Extreme::largest_von_mises ?
+                      r.von_mises(quantity.face) :
+                      sign * r.principal(stress)[sign > 0. ? 0 : 1].value;
+           });
   }
 } // namespace Nacre

@@ -18,6 +18,13 @@ namespace Nacre
     return table;
   }
 
+  std::string
+  field_name(std::string name)
+  {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+  }
+
   PointResults::PlaneTensor
   PointResults::in_axes(const Tensor3 &T) const
   {
@@ -91,7 +98,10 @@ namespace Nacre
       ShellStrain::resultant_tensor(frame, answer.membrane_force);
     r.moments = axes.side * ShellStrain::resultant_tensor(frame, answer.moment);
     for (unsigned int k = 0; k < n_faces; ++k)
-      r.stress[k] = stress(q, k - 1.);
+      {
+        r.stress[k]        = stress(q, k - 1.);
+        r.state_results[k] = state_results(q, k - 1.);
+      }
     if (shear_)
       r.transverse_shear = axes.side * shear_->value(q);
     r.layers = section.layers(eps, rho, frame, point, state);
@@ -113,6 +123,15 @@ namespace Nacre
         r.layers[0].height = {{-0.5 * h, 0.5 * h}};
       }
     return r;
+  }
+
+  std::vector<double>
+  CellResults::state_results(const unsigned int q, const double side) const
+  {
+    const auto axes = state_.model.result_axes.at(strains_.values().frame(q),
+                                                  strains_.values().point(q));
+    return state_.model.section->state_results(axes.side * side,
+                                               strains_.section_state(q));
   }
 
   Tensor<2, spacedim>

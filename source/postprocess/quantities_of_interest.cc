@@ -3,6 +3,7 @@
 
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
+#include <nacre/mechanics/j2_plasticity.h>
 #include <nacre/postprocess/crack_quantities.h>
 #include <nacre/postprocess/cut_quantities.h>
 #include <nacre/postprocess/error_norms.h>
@@ -12,6 +13,7 @@
 #include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
+#include <nacre/postprocess/state_quantities.h>
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/midsurface.h>
 
@@ -150,6 +152,7 @@ namespace Nacre
         {"membrane energy", of_energies(&Energies::membrane), false},
         {"bending energy", of_energies(&Energies::bending), false},
         {"edge energy", of_energies(&Energies::edge), false},
+        {"plastic dissipation", plastic_dissipation, false},
         {"foundation energy", of_energies(&Energies::foundation), false},
         {"kinetic energy", kinetic_energy, false},
         {"total energy", total_energy, false},
@@ -344,6 +347,24 @@ namespace Nacre
       return false;
     }
 
+    /** Whether it is a result of the section's states; then it is filled. */
+    bool
+    parse_result_of_state(QuantitiesOfInterest::Quantity &quantity,
+                          Phrase                         &phrase,
+                          const SectionLaw               &section,
+                          const Constants                &constants)
+    {
+      const auto of_state =
+        parse_state_quantity(phrase, section.state_result_names(), constants);
+      if (!of_state)
+        return false;
+      quantity.point    = of_state->point;
+      quantity.evaluate = [of_state](const SolvedShell &shell) {
+        return evaluate_state_quantity(shell, *of_state);
+      };
+      return true;
+    }
+
     void
     parse_at_point(QuantitiesOfInterest::Quantity &quantity,
                    const PointQuantity            &at_point)
@@ -366,6 +387,7 @@ namespace Nacre
                const Midsurface               &midsurface,
                const Cuts                     &cuts,
                const ExactSolution            &exact_solution,
+               const SectionLaw               &section,
                const Constants                &constants)
     {
       const std::string kind = phrase.text;
@@ -389,6 +411,8 @@ namespace Nacre
       for (const auto &[name, ply_kind] : ply_kinds())
         if (phrase.take(name))
           return parse_ply(quantity, phrase, ply_kind, constants);
+      if (parse_result_of_state(quantity, phrase, section, constants))
+        return;
       if (const auto mode = parse_mode_quantity(kind, phrase.where))
         quantity.evaluate = [mode](const SolvedShell &shell) {
           return evaluate_mode_quantity(shell.modes, *mode);
@@ -468,7 +492,10 @@ namespace Nacre
       "x|y|z|(a, b, c) at (point), of the normal; components in the axes of "
       "'Output/Reference direction', or 'along x|y|z|(a, b, c)' before 'at'; "
       "largest|smallest principal stress, largest von Mises stress "
-      "bottom|middle|top, over the nodes of all cells; in laminates ply "
+      "bottom|middle|top, over the nodes of all cells; of metals "
+      "accumulated plastic strain bottom|middle|top at (point), largest "
+      "accumulated plastic strain bottom|middle|top, plastic dissipation; in "
+      "laminates ply "
       "stress|strain 1|2|12 of NUMBER bottom|top at "
       "(point), Tsai-Wu index at (point), maximum stress index at (point), the "
       "largest of all plies; of cuts length of CUT, opening "
@@ -499,6 +526,11 @@ namespace Nacre
       names.push_back(name);
     for (const auto &name : names_of<ExtremeStress::Kind>())
       names.push_back(name);
+    for (const std::string name : J2Plasticity::result_names)
+      {
+        names.push_back(name);
+        names.push_back("largest " + name);
+      }
     for (const auto &name : names_of<CrackQuantity::Kind>())
       names.push_back(name);
     for (const auto &kind : ply_kinds())
@@ -516,6 +548,7 @@ namespace Nacre
   QuantityParameters::make(const Midsurface    &midsurface,
                            const Cuts          &cuts,
                            const ExactSolution &exact_solution,
+                           const SectionLaw    &section,
                            const Constants     &constants) const
   {
     const std::string       parameter = "Quantities/Quantities";
@@ -553,6 +586,7 @@ namespace Nacre
                    midsurface,
                    cuts,
                    exact_solution,
+                   section,
                    constants);
         quantities.push_back(std::move(quantity));
       }

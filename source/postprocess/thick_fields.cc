@@ -14,9 +14,6 @@ namespace Nacre
   {
     namespace Interpretation = DataComponentInterpretation;
 
-    /** displacement, stress, two principal stresses, von Mises, layer */
-    constexpr unsigned int n_thick_components = 3 + 9 + 2 + 1 + 1;
-
     /** The points of a cell, and the linear cells that it is cut into. */
     struct FlatCells
     {
@@ -62,8 +59,8 @@ namespace Nacre
     /** A point of the body. */
     struct BodyPoint
     {
-      Point<spacedim>                        position;
-      std::array<double, n_thick_components> data;
+      Point<spacedim>     position;
+      std::vector<double> data;
     };
 
     /**
@@ -87,22 +84,24 @@ namespace Nacre
       const double side = (2. * inside - bottom - top) / std::abs(top - bottom);
       const auto   stress = results.stress(q, side);
 
-      BodyPoint    p{r.point + z * r.normal, {}};
-      unsigned int row = 0;
+      BodyPoint p{r.point + z * r.normal, {}};
       for (unsigned int c = 0; c < spacedim; ++c)
-        p.data[row++] = r.displacement[c] + z * r.normal_change[c];
+        p.data.push_back(r.displacement[c] + z * r.normal_change[c]);
       for (unsigned int c = 0; c < 9; ++c)
-        p.data[row++] = stress[c / 3][c % 3];
+        p.data.push_back(stress[c / 3][c % 3]);
       for (const auto &principal : r.principal(stress))
-        p.data[row++] = principal.value;
-      p.data[row++] = r.von_mises(stress);
-      p.data[row++] = k + 1;
+        p.data.push_back(principal.value);
+      p.data.push_back(r.von_mises(stress));
+      p.data.push_back(k + 1);
+      for (const double result : results.state_results(q, side))
+        p.data.push_back(result);
       return p;
     }
   } // namespace
 
   ThickFields::ThickFields(const ShellState  &state,
                            const unsigned int n_subdivisions)
+    : state_results_(state.model.section->state_result_names())
   {
     const auto &discretization = state.discretization;
     const bool  triangles =
@@ -110,6 +109,7 @@ namespace Nacre
     const unsigned int n =
       n_subdivisions == 0 ? discretization.degree() : n_subdivisions;
     const FlatCells flat = triangles ? cut_triangle(n) : cut_quadrilateral(n);
+    const unsigned int n_components = get_dataset_names().size();
     const unsigned int n_layers = std::max(state.model.section->n_layers(), 1U);
     CellResults results(state, Quadrature<dim>(flat.points), false, true);
     for (const CellPart &part : discretization.owned_parts())
@@ -136,7 +136,7 @@ namespace Nacre
               patch.reference_cell =
                 triangles ? ReferenceCells::Wedge : ReferenceCells::Hexahedron;
               patch.n_subdivisions = 1;
-              patch.data.reinit(n_thick_components, 2 * corners.size());
+              patch.data.reinit(n_components, 2 * corners.size());
               unsigned int vertex = 0;
               // VTK's wedges begin with the triangle on the top.
               for (unsigned int f = 0; f < 2; ++f)
@@ -145,7 +145,7 @@ namespace Nacre
                     const unsigned int face = triangles ? 1 - f : f;
                     const auto p = body_point(here[q], results, q, k, face);
                     patch.vertices[vertex] = p.position;
-                    for (unsigned int c = 0; c < n_thick_components; ++c)
+                    for (unsigned int c = 0; c < p.data.size(); ++c)
                       patch.data(c, vertex) = p.data[c];
                     ++vertex;
                   }
@@ -165,6 +165,8 @@ namespace Nacre
     for (const auto *const name :
          {"principal_stress_1", "principal_stress_2", "von_mises", "layer"})
       names.emplace_back(name);
+    for (const auto &name : state_results_)
+      names.push_back(field_name(name));
     return names;
   }
 

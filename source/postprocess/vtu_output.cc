@@ -185,9 +185,25 @@ namespace Nacre
       return list;
     }
 
+    /** What the section remembers at the faces, by the names of its results. */
+    std::vector<OutputField>
+    state_fields(const std::vector<std::string> &names)
+    {
+      std::vector<OutputField> list;
+      for (unsigned int k = 0; k < names.size(); ++k)
+        for (const Face face : {Face::top, Face::middle, Face::bottom})
+          list.push_back(scalar(field_name(names[k]) + "_" + name_of(face),
+                                [=](const PointResults &s) {
+                                  const auto f = static_cast<unsigned>(face);
+                                  return s.state_results[f][k];
+                                }));
+      return list;
+    }
+
     /** All fields of the output, in its order. */
     std::vector<OutputField>
-    fields(const unsigned int n_layers)
+    fields(const unsigned int              n_layers,
+           const std::vector<std::string> &state_results)
     {
       using S            = const PointResults &;
       const auto forces  = [](S s) { return s.membrane_forces; };
@@ -214,6 +230,8 @@ namespace Nacre
         list.push_back(field);
       list.push_back(
         scalar("energy_density", [](S s) { return s.energy_density; }));
+      for (const auto &field : state_fields(state_results))
+        list.push_back(field);
       if (n_layers > 0)
         for (const auto &field : layer_fields(n_layers))
           list.push_back(field);
@@ -356,6 +374,7 @@ namespace Nacre
                            const unsigned int         n_subdivisions,
                            const TrilinosWrappers::MPI::Vector *mode)
     : n_layers_(state.model.section->n_layers())
+    , state_results_(state.model.section->state_result_names())
     , has_error_indicators_(!error_indicators.empty())
     , has_mode_(mode != nullptr)
   {
@@ -377,7 +396,7 @@ namespace Nacre
     std::optional<StrainValues> mode_values;
     if (has_mode_)
       mode_values.emplace(moved, points, true);
-    const auto                      list = fields(n_layers_);
+    const auto                      list = fields(n_layers_, state_results_);
     const std::vector<unsigned int> corners =
       triangles ?
         std::vector<unsigned int>{0, 1, 2} :
@@ -439,7 +458,7 @@ namespace Nacre
   ShellFields::get_dataset_names() const
   {
     std::vector<std::string> names;
-    for (const auto &field : fields(n_layers_))
+    for (const auto &field : fields(n_layers_, state_results_))
       names.insert(names.end(), field.n_components, field.name);
     names.push_back("rank");
     if (has_error_indicators_)
@@ -455,7 +474,7 @@ namespace Nacre
   {
     std::vector<NonscalarRange> ranges;
     unsigned int                first = 0;
-    for (const auto &field : fields(n_layers_))
+    for (const auto &field : fields(n_layers_, state_results_))
       {
         if (field.interpretation != Interpretation::component_is_scalar)
           ranges.emplace_back(first,

@@ -170,6 +170,7 @@ namespace Nacre
     quantities_ = quantity_parameters_.make(problem_->model.midsurface,
                                             problem_->model.cuts,
                                             problem_->model.exact_solution,
+                                            *problem_->model.section,
                                             problem_->constants);
     adaptive_   = adaptive_parameters_.make(*problem_, quantities_);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the Nacre authors
 
+#include <nacre/base/text.h>
 #include <nacre/discretization/rigid_motions.h>
 #include <nacre/simulation/rigid_shares.h>
 #include <nacre/simulation/vibration_analysis.h>
@@ -41,6 +42,18 @@ namespace Nacre
           }
       return sum;
     }
+
+    /** The size (1/time^2) of the lowest omega^2, roughly; collective. */
+    double
+    typical_square(const Discretization &discretization,
+                   const SectionLaw     &section)
+    {
+      const auto   communicator = discretization.communicator();
+      const auto   sums         = bending_and_mass(discretization, section);
+      const double D            = Utilities::MPI::sum(sums.first, communicator);
+      const double m = Utilities::MPI::sum(sums.second, communicator);
+      return D / m * std::pow(numbers::PI / discretization.extent().second, 4);
+    }
   } // namespace
 
   void
@@ -51,6 +64,15 @@ namespace Nacre
       free_dofs(shell, prestress.constraints()).n_elements(),
       communicator_));
     const MassTerms mass(shell.discretization(), *problem_.model.section);
+    // The eigensolver takes squares of these squares.
+    const double square =
+      typical_square(shell.discretization(), *problem_.model.section);
+    AssertThrow(square > 1e-120 && square < 1e120,
+                ExcMessage("Section/Density: with this mass the squares of "
+                           "angular frequencies are of the size " +
+                           Text::number(square) +
+                           "; they must be between 1e-120 and 1e120. Choose "
+                           "other units."));
     AssertThrow(problem_.modes.prestress == PrestressKind::none ||
                   prestress.acts(1.),
                 ExcMessage("Analysis/Prestress: nothing acts on the shell at "
@@ -83,12 +105,8 @@ namespace Nacre
   VibrationAnalysis::lowest_shift(const DiscreteShell &shell,
                                   Eigenproblem        &problem) const
   {
-    const auto sums =
-      bending_and_mass(shell.discretization(), *problem_.model.section);
-    const double D    = Utilities::MPI::sum(sums.first, communicator_);
-    const double m    = Utilities::MPI::sum(sums.second, communicator_);
-    const double L    = shell.discretization().extent().second;
-    const double size = D / m * std::pow(numbers::PI / L, 4);
+    const double size =
+      typical_square(shell.discretization(), *problem_.model.section);
     double shift = shell.conditions().free_rigid_motions().empty() ? 0. : -size;
     for (unsigned int trial = 0; trial < 40; ++trial)
       {

@@ -74,3 +74,9 @@ metal("linear_analysis", ["Analysis/Type", "linear", "static"],
 metal("growth", ["Growth/Criterion", "energy release rate", "prescribed"],
       **{"Cuts/Cuts": "tear: uv (-0.1, 0.45) (0.45, 0.45)",
          "Growth/Tips": "tear end", "Growth/Toughness": "1"})
+RESULT = "Quantities/Quantities"
+rubber("plastic_strain",
+       [RESULT, "accumulated plastic strain", "elastoplastic"],
+       **{RESULT: "a = accumulated plastic strain top at (0, 0, 0)"})
+metal("plastic_strain_face", [RESULT, "face", "'up'", "middle"],
+      **{RESULT: "a = largest accumulated plastic strain up"})

@@ -73,6 +73,19 @@ public:
     return point_.response(strains_).energy;
   }
 
+  double
+  dissipated() const
+  {
+    return point_.dissipated_energy();
+  }
+
+  /** The accumulated plastic strain over that of first yielding. */
+  double
+  accumulated(const double side) const
+  {
+    return point_.state_result(side) * E / yield;
+  }
+
   /** kappa_yy/kappa_xx. */
   double
   contraction() const
@@ -303,11 +316,21 @@ test_cycles()
   strip.bend(4., 1);
   strip.bend(-4., 1);
   strip.bend(4., 1);
-  const double before = strip.energy();
+  const double before = strip.energy(), dissipated = strip.dissipated();
   strip.bend(-4., 1);
   strip.bend(4., 1);
   check_below("dissipation of a cycle",
               std::abs((strip.energy() - before) / (M_y * kappa_y) - 13.5),
+              1e-4);
+  check_below("as the law says",
+              std::abs((strip.dissipated() - dissipated) / (M_y * kappa_y) -
+                       13.5),
+              1e-4);
+  // At the bottom 3, and 6 with each way back; at a quarter only 1 and 2.
+  check_below("accumulated plastic strain",
+              std::abs(strip.accumulated(-1.) - 27.) +
+                std::abs(strip.accumulated(0.5) - 9.) +
+                std::abs(strip.accumulated(0.)),
               1e-4);
 }
 

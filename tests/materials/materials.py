@@ -123,6 +123,63 @@ def springback(folder):
 
 
 @test(1)
+def cyclic_strip(folder):
+    """A strip that hardens, pulled to four times the strain of first yielding,
+    pressed as far, and pulled again: force, energies, what it remembers."""
+    E, s_y, H, h, b = 1., 1e-3, 0.1, 0.1, 0.2
+    folder.write("strip.prm", f"""
+subsection Mid-surface
+  set Surface      = plate
+  set Subdivisions = 1
+  subsection plate
+    set Size = 1, {b}
+  end
+end
+subsection Section
+  set Type            = elastoplastic
+  set Young's modulus = {E}
+  set Thickness       = {h}
+  subsection Plasticity
+    set Yield stress      = {s_y}
+    set Hardening modulus = {H}
+    set Points            = 5
+  end
+end
+subsection Discretization
+  set Kinematics = linear
+end
+subsection Boundary conditions
+  set Edges  = u=0, v=0: symmetry; u=1: x = {4 * s_y / E}
+  set Points = (0, 0, 0): z = 0
+end
+subsection Analysis
+  set Type         = static
+  set Load factor  = 2/pi*asin(sin(pi*t/2))
+  set End time     = 5
+  set Time step    = 1
+end
+subsection Quantities
+  set Quantities = F = reaction x of u=1; U = energy; \\
+    D = plastic dissipation; \\
+    a = accumulated plastic strain top at (0.4, 0.1, 0); \\
+    A = largest accumulated plastic strain bottom
+end
+""")
+    folder.succeed("strip.prm", **{**COARSE, "Study__Degrees": "2"},
+                   Study__Refinements="0")
+    stress = s_y + E * H / (E + H) * 3 * s_y / E
+    for k in range(2):  # The other way, by twice the strain
+        stress += E * H / (E + H) * (8 * s_y / E - 2 * stress / E)
+    a = (stress - s_y) / H
+    energy = stress**2 / (2 * E) + s_y * a + H * a**2 / 2
+    found = folder.rows("case_path.csv")[-1]
+    for column, expected in (("F", stress * h * b), ("U", energy * h * b),
+                             ("D", s_y * a * h * b), ("a", a), ("A", a)):
+        check(near(float(found[column]), expected, 1e-8),
+              f"{column}: {found}, not {expected}")
+
+
+@test(1)
 def plastic_tube(folder):
     folder.succeed(str(FILES / "plastic_tube.prm"), **COARSE)
     check_ratio(folder, "ratio", 2e-4)

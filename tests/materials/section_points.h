@@ -121,6 +121,19 @@ namespace Tests
                                                    make_array_view(state_));
     }
 
+    /** The first of the law's state_results(). */
+    double
+    state_result(const double side) const
+    {
+      return law_.state_results(side, make_array_view(state_)).at(0);
+    }
+
+    double
+    dissipated_energy() const
+    {
+      return law_.dissipated_energy(point_, make_array_view(state_));
+    }
+
     /** The end of a step at these strains. */
     void
     accept(const Strains &strains)

@@ -498,6 +498,13 @@ case("contradiction_of_small_values",
      {"Mid-surface/Surface": "sphere", "Mid-surface/sphere/Part": "octant",
       "Study/Refinements": "1",
       EDGES: "y=0: normal = 1e-9; equator: x = 0"})
+# Two directions of the diaphragm lie in what u=0 and the other one prescribe.
+case("contradiction_of_two_directions",
+     ["Contradicting conditions", "diaphragm' against", "edge 'u=0': y = 0"],
+     {"Mid-surface/Surface": "expression",
+      "Mid-surface/expression/Position":
+      "0.8*u + 0.15*u^2, v - 0.3*u, -0.09*u^2",
+      EDGES: "u=0: x = 1, y = 0; v=0: diaphragm; u=1: fixed"})
 case("contradiction_at_support",
      ["Contradicting conditions at the point (0, 0, 0)", POINTS, "z = 1"],
      {POINTS: "(0, 0, 0): z = 1"})

@@ -89,6 +89,8 @@ case("sign_of_vibration", ["Sign of load factors", "vibration"],
      {**VIBRATION, A + "Sign of load factors": "both"})
 case("corotational", ["Kinematics", "buckling", "Kinematics = linear"],
      {"Discretization/Kinematics": "corotational"})
+case("density_beyond_numbers", ["Section/Density", "between", "units"],
+     {**VIBRATION, "Section/Density": "1e300"})
 case("multigrid", ["'multigrid' has no factors", "vibration"],
      {**VIBRATION, "Linear solver/Solver": "multigrid"})
 case("adaptive", ["Adaptive refinement/Cycles", "linear analysis"],

@@ -23,7 +23,8 @@ namespace Nacre
    *
    * A material is a value with response() and update(), as NeoHookean, and a
    * line at the end of integrated_section.cc. The state of the section is that
-   * of the material at each point of the rule, from the bottom up.
+   * of the material at each point of the rule, from the bottom up; the first
+   * numbers of it are the results of the names Material::result_names.
    */
   template <typename Material>
   class IntegratedSection : public SectionLaw
@@ -76,6 +77,19 @@ namespace Nacre
                  const SurfaceFrame<>    &frame,
                  const SectionPoint      &point,
                  const ArrayView<double> &state) const override;
+
+    std::vector<std::string>
+    state_result_names() const override
+    {
+      return {Material::result_names.begin(), Material::result_names.end()};
+    }
+
+    std::vector<double>
+    state_results(const double side, const SectionState &state) const override;
+
+    double
+    dissipated_energy(const SectionPoint &point,
+                      const SectionState &state) const override;
 
     bool
     is_linear() const override

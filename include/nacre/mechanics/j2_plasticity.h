@@ -26,6 +26,10 @@ namespace Nacre
   {
     static constexpr unsigned int n_state_variables = 7;
 
+    /** What users see of a state: the first of its numbers. */
+    static constexpr std::array<const char *, 1> result_names{
+      {"accumulated plastic strain"}};
+
     /** E (force/length^2). */
     double youngs_modulus;
     double poissons_ratio;
@@ -46,6 +50,13 @@ namespace Nacre
     response(const Voigt<>      &strain,
              const TangentAxes  &axes,
              const SectionState &state) const;
+
+    /** s_y a, what of w has been dissipated in a state (force/length^2). */
+    double
+    dissipated(const SectionState &state) const
+    {
+      return state.size() > 0 ? yield_stress * state[0] : 0.;
+    }
 
     /** Replace @p state by that of the end of the step. */
     void

@@ -18,7 +18,8 @@ namespace Nacre
    */
   struct NeoHookean
   {
-    static constexpr unsigned int n_state_variables = 0;
+    static constexpr unsigned int                n_state_variables = 0;
+    static constexpr std::array<const char *, 0> result_names{};
 
     /** mu (force/length^2). */
     double shear_modulus;
@@ -32,6 +33,12 @@ namespace Nacre
     response(const Voigt<> &strain,
              const TangentAxes & /*axes*/,
              const SectionState & /*state*/) const;
+
+    double
+    dissipated(const SectionState & /*state*/) const
+    {
+      return 0.;
+    }
 
     void
     update(const Voigt<> & /*strain*/,

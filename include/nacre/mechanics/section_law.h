@@ -191,6 +191,34 @@ namespace Nacre
                  const ArrayView<double> & /*state*/) const
     {}
 
+    /**
+     * What users see of the state, as "accumulated plastic strain": the names
+     * of the numbers of state_results().
+     */
+    virtual std::vector<std::string>
+    state_result_names() const
+    {
+      return {};
+    }
+
+    /** At z = @p side h/2 from the middle of the section, as stress(). */
+    virtual std::vector<double>
+    state_results(const double /*side*/, const SectionState & /*state*/) const
+    {
+      return {};
+    }
+
+    /**
+     * What of the energy of response() has been dissipated on the way to the @p
+     * state, per area of the undeformed surface (force/length).
+     */
+    virtual double
+    dissipated_energy(const SectionPoint & /*point*/,
+                      const SectionState & /*state*/) const
+    {
+      return 0.;
+    }
+
     /** The tangent at rest; for linear laws at all strains. */
     virtual SectionStiffness
     stiffness(const SurfaceFrame<> &frame, const SectionPoint &point) const

@@ -94,6 +94,29 @@ namespace Nacre
   std::optional<ExtremeStress>
   parse_extreme_stress(QuantityPhrase &phrase);
 
+  /** The face that a @p word names; throws for others. */
+  Face
+  parse_face(const std::string &word, const QuantityPhrase &phrase);
+
+  /**
+   * The @p value of the results at a @p point; collective. Throws on all ranks,
+   * with @p where, if it isn't on the mid-surface.
+   */
+  double
+  value_at_point(const ShellState                                  &state,
+                 const Point<spacedim>                             &point,
+                 const std::string                                 &where,
+                 const std::function<double(const PointResults &)> &value,
+                 const bool with_shear = false);
+
+  /**
+   * The largest @p value over the nodes of all cells, each cell by itself;
+   * collective.
+   */
+  double
+  largest_value(const ShellState                                  &state,
+                const std::function<double(const PointResults &)> &value);
+
   /**
    * The value; collective. Throws on all ranks if the point isn't on the
    * mid-surface, and where an axis is normal to it.
@@ -154,7 +177,7 @@ namespace Nacre
                  const TrilinosWrappers::MPI::Vector &displacement,
                  const PointQuantity                 &quantity);
 
-  /** Over the nodes of all cells, each cell by itself; collective. */
+  /** Over the nodes of all cells; collective. */
   double
   evaluate_extreme_stress(const ShellState    &state,
                           const ExtremeStress &quantity);

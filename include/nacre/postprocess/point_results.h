@@ -80,6 +80,8 @@ namespace Nacre
     Vector3 transverse_shear;
     /** w per undeformed area (force/length). */
     double energy_density = 0.;
+    /** SectionLaw::state_results(), by Face. */
+    std::array<std::vector<double>, n_faces> state_results;
     /** Of laminates, bottom to top of the stack; heights along the normal. */
     std::vector<LayerState> layers;
 
@@ -106,6 +108,10 @@ namespace Nacre
       return von_mises(stress[static_cast<unsigned int>(face)]);
     }
   };
+
+  /** The @p name as files of fields write it, with _ for spaces. */
+  std::string
+  field_name(std::string name);
 
   /** PointResults at the same points of one cell after the other. */
   class CellResults
@@ -155,6 +161,10 @@ namespace Nacre
      */
     Tensor<2, spacedim>
     stress(const unsigned int q, const double side) const;
+
+    /** SectionLaw::state_results() there. */
+    std::vector<double>
+    state_results(const unsigned int q, const double side) const;
 
   private:
     const ShellState               state_;

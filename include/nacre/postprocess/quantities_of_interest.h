@@ -106,12 +106,14 @@ namespace Nacre
 
     /**
      * Throws for unknown kinds and edges, for two quantities of one name and
-     * for an error norm without an exact solution.
+     * for an error norm without an exact solution. Of the @p section the
+     * results of its states have names.
      */
     QuantitiesOfInterest
     make(const Midsurface    &midsurface,
          const Cuts          &cuts,
          const ExactSolution &exact_solution,
+         const SectionLaw    &section,
          const Constants     &constants) const;
 
   private:

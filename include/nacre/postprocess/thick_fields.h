@@ -27,6 +27,7 @@ namespace Nacre
    * first | force/length^2 |
    * | von_mises | | force/length^2 |
    * | layer | number of the ply, from 1 at the bottom of the stack | - |
+   * | accumulated_plastic_strain | of metals: SectionLaw::state_results() | - |
    */
   class ThickFields : public DataOutInterface<3, spacedim>
   {
@@ -55,7 +56,8 @@ namespace Nacre
     get_nonscalar_data_ranges() const override;
 
   private:
-    std::vector<Patch> patches_;
+    std::vector<std::string> state_results_;
+    std::vector<Patch>       patches_;
   };
 } // namespace Nacre
 

@@ -39,6 +39,8 @@ namespace Nacre
    * n/h + 12 z m/h^3 if it is homogeneous, at z = h/2, 0, -h/2 along t0 from
    * its middle | force/length^2 |
    * | energy_density | w of the section law | force/length |
+   * | accumulated_plastic_strain_top, _middle, _bottom | of metals:
+   * SectionLaw::state_results(), their names with _ for spaces | - |
    * | rank | MPI rank that owns the cell | - |
    * | tsai_wu, maximum_stress | of laminates: the largest index of all plies, 1
    * at failure; 0 without strengths | - |
@@ -87,10 +89,11 @@ namespace Nacre
     get_nonscalar_data_ranges() const override;
 
   private:
-    unsigned int       n_layers_;
-    bool               has_error_indicators_;
-    bool               has_mode_;
-    std::vector<Patch> patches_;
+    unsigned int             n_layers_;
+    std::vector<std::string> state_results_;
+    bool                     has_error_indicators_;
+    bool                     has_mode_;
+    std::vector<Patch>       patches_;
   };
 
   /** Kinds of files for the fields. */
