@@ -369,10 +369,6 @@ namespace Nacre
                            name_of(problem.path.type) +
                            "' is linear; choose 'Analysis/Type = static' or "
                            "'Tension free = no'."));
-    AssertThrow(!problem.model.section->has_initial_strain() ||
-                  problem.assembly == AssemblyMethod::fast,
-                ExcMessage("Section/Initial strain: 'Discretization/Assembly = "
-                           "reference' doesn't know it; choose 'fast'."));
     if (!problem.path.is_linear())
       return;
     AssertThrow(linear_kinematics,
