@@ -153,6 +153,17 @@ namespace Nacre
         }
     }
 
+    /** Virtual work of the forces that initial strains take off n or m. */
+    void
+    add_initial_work(const std::vector<Voigt<>> &strain,
+                     const Voigt<>              &force,
+                     const double                weight,
+                     dealii::Vector<double>     &vector)
+    {
+      for (unsigned int i = 0; i < strain.size(); ++i)
+        vector(i) += weight * (strain[i] * force);
+    }
+
     /** Share of the full rule, min(1, h^2 / |K|), where rules are blended. */
     double
     full_share(const FEValues<dim, spacedim> &cell, const SectionLaw &section)
@@ -229,6 +240,10 @@ namespace Nacre
         // Coupling: eps(v):B:rho(u) + rho(v):B^T:eps(u)
         if (parts_.section.is_coupled())
           add_coupling(eps, H.coupling, rho, share * dA, part.matrix);
+        // n0:eps(v) + m0:rho(v), what initial strains take off n and m
+        const auto held = parts_.section.initial_forces(frame, x, Instant());
+        add_initial_work(eps, held.membrane_force, share * dA, part.vector);
+        add_initial_work(rho, held.moment, dA, part.vector);
 
         // f . v
         const double area_density =
@@ -270,6 +285,11 @@ namespace Nacre
         add_energy(eps, H.membrane, dA, part.matrix);
         if (is_coupled)
           add_coupling(eps, H.coupling, rho, dA, part.matrix);
+        const auto held =
+          parts_.section.initial_forces(frame,
+                                        section_point(scratch.reduced, q),
+                                        Instant());
+        add_initial_work(eps, held.membrane_force, dA, part.vector);
       }
   }
 
@@ -293,6 +313,10 @@ namespace Nacre
         // nu . m . nu = (nu nu) : (B^T : eps + D : rho), and D(nu, nu, nu, nu)
         const auto nu_nu = ShellStrain::dyad_of(frame, nu);
         D                = nu_nu * (H.bending * nu_nu);
+        m0_nn =
+          nu_nu *
+          section.initial_forces(frame, section_point(fe_values, q), Instant())
+            .moment;
         for (unsigned int i = 0; i < theta.size(); ++i)
           {
             theta[i] = rotation(fe_values, frame.t0, nu, i, q);
@@ -316,7 +340,8 @@ namespace Nacre
 
       SurfaceFrame<>      frame;
       Tensor<1, spacedim> nu;
-      double              D = 0.;
+      double              D     = 0.;
+      double              m0_nn = 0.;
       std::vector<double> theta;
       std::vector<double> m_nn;
     };
@@ -386,12 +411,17 @@ namespace Nacre
               }
           }
         // (N.12): eta D [[theta]][[theta]] - {m_nn}[[theta]] - [[theta]]{m_nn}
-        const double D = 0.5 * (side_minus.D + side_plus.D);
+        const double D  = 0.5 * (side_minus.D + side_plus.D);
+        const double m0 = 0.5 * (side_minus.m0_nn + sigma * side_plus.m0_nn);
         for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            part.matrix(i, j) += (eta * D * jump[i] * jump[j] -
-                                  mean[i] * jump[j] - jump[i] * mean[j]) *
-                                 minus.JxW(q);
+          {
+            // The moment of stresses is {m_nn} - {m0_nn}.
+            part.vector(i) -= m0 * jump[i] * minus.JxW(q);
+            for (unsigned int j = 0; j < n; ++j)
+              part.matrix(i, j) += (eta * D * jump[i] * jump[j] -
+                                    mean[i] * jump[j] - jump[i] * mean[j]) *
+                                   minus.JxW(q);
+          }
       }
   }
 
@@ -440,7 +470,9 @@ namespace Nacre
             // (N.15), (N.16): 2 eta D theta theta + m_nn theta + theta m_nn
             const double test =
               2. * eta * side.D * side.theta[i] + side.m_nn[i];
-            part.vector(i) += test * (*edge->second.rotation)(x)*ds;
+            part.vector(i) += (test * (*edge->second.rotation)(x) +
+                               side.m0_nn * side.theta[i]) *
+                              ds;
             for (const unsigned int j : fe_values.dof_indices())
               part.matrix(i, j) +=
                 (test * side.theta[j] + side.theta[i] * side.m_nn[j]) * ds;

@@ -8,6 +8,17 @@
 
 namespace Nacre
 {
+  const Selection<SectionType> &
+  selection(SectionType)
+  {
+    static const Selection<SectionType> table = {
+      {SectionType::isotropic, "isotropic"},
+      {SectionType::laminate, "laminate"},
+      {SectionType::neo_hookean, "neo-Hookean"},
+      {SectionType::elastoplastic, "elastoplastic"}};
+    return table;
+  }
+
   ShellSectionParameters::ShellSectionParameters()
     : SectionParameters("/Section")
   {
@@ -20,21 +31,23 @@ namespace Nacre
                   "thickness and density below; elastoplastic: the isotropic "
                   "section, whose layers yield, by the subsection Plasticity. "
                   "The last two need an analysis that iterates, and "
-                  "'Discretization/Kinematics = finite' or 'linear'.",
-                  prm,
-                  Patterns::Selection(
-                    "isotropic|laminate|neo-Hookean|elastoplastic"));
+                  "'Discretization/Kinematics = finite' or 'linear'.");
   }
 
   const SectionParameters &
   ShellSectionParameters::chosen() const
   {
-    if (type_ == "laminate")
-      return laminate_;
-    if (type_ == "neo-Hookean")
-      return neo_hookean_;
-    if (type_ == "elastoplastic")
-      return elastoplastic_;
+    switch (type_)
+      {
+        case SectionType::laminate:
+          return laminate_;
+        case SectionType::neo_hookean:
+          return neo_hookean_;
+        case SectionType::elastoplastic:
+          return elastoplastic_;
+        case SectionType::isotropic:
+          break;
+      }
     return isotropic_;
   }
 
@@ -43,11 +56,11 @@ namespace Nacre
     const Constants             &constants,
     const std::optional<double> &thickness) const
   {
-    AssertThrow(type_ != "laminate" || !isotropic_.has_regions(),
+    AssertThrow(type_ != SectionType::laminate || !isotropic_.has_regions(),
                 ExcMessage("Section/Regions: these are regions of isotropic "
                            "sections; for 'Type = laminate' use "
                            "'Section/Laminate/Regions'."));
-    AssertThrow(type_ != "neo-Hookean" || !isotropic_.has_regions(),
+    AssertThrow(type_ != SectionType::neo_hookean || !isotropic_.has_regions(),
                 ExcMessage("Section/Regions: these are regions of isotropic "
                            "sections; for 'Type = neo-Hookean' thickness and "
                            "shear modulus may be expressions of x, y, z."));
@@ -64,7 +77,7 @@ namespace Nacre
       known.emplace(name, value);
     auto law = chosen().make(constants, thickness, regions);
     auto initial_strains =
-      initial_strain_.make(known, type_ == "laminate", regions);
+      initial_strain_.make(known, type_ == SectionType::laminate, regions);
     if (initial_strains.is_zero())
       return law;
     return std::make_shared<InitiallyStrainedSection>(std::move(law),

@@ -113,11 +113,19 @@ namespace Nacre
       return surface;
     }
 
-    /** Whether slits are meant where nodes lie at one place. */
-    bool
-    allows_slits(const SurfaceInput &input)
+    /** What nodes that lie at one place are. */
+    enum class Slits
     {
-      return input.choice("Slits", {"refused", "allowed"}) == "allowed";
+      refused,
+      allowed
+    };
+
+    const Selection<Slits> &
+    selection(Slits)
+    {
+      static const Selection<Slits> table = {{Slits::refused, "refused"},
+                                             {Slits::allowed, "allowed"}};
+      return table;
     }
 
     double
@@ -149,7 +157,7 @@ namespace Nacre
                               });
     leave_out_unused_nodes(mesh);
     merge_nodes(mesh, merge_distance(input));
-    const bool slits = allows_slits(input);
+    const bool slits = input.choice<Slits>("Slits") == Slits::allowed;
     check_places(mesh, slits);
     check_cells(mesh);
     const MeshSides sides = find_sides(mesh);

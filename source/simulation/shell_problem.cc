@@ -333,9 +333,6 @@ namespace Nacre
       AssertThrow(problem.model.cuts.is_empty(),
                   ExcMessage(reference + "knows no cells that cuts "
                                          "(Cuts/Cuts) divide; choose 'fast'."));
-      AssertThrow(!problem.model.section->has_initial_strain(),
-                  ExcMessage("Section/Initial strain: 'Discretization/Assembly "
-                             "= reference' doesn't know it; choose 'fast'."));
     }
 
     /** What modes are sought about. */

@@ -49,8 +49,6 @@ case("foundation_of_no_region", ["Foundation/Regions", "'soil'"],
      {F + "Regions": "soil: normal = 1"})
 case("strain_of_two", ["Initial strain/Strain: '1, 2' has 2 components"],
      {S + "Strain": "1, 2"})
-case("strain_reference", ["Initial strain", "Assembly = reference", "fast"],
-     {**HEATED, "Discretization/Assembly": "reference"})
 case("strain_adaptive", ["Cycles", "estimate knows no initial strains"],
      {**HEATED, "Adaptive refinement/Cycles": "1"})
 case("temperature_without_expansion",

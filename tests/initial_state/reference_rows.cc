@@ -67,6 +67,11 @@ check_initial_strains()
   };
   const Settings fixed = {
     "Boundary conditions/Edges=left, right, bottom, top: fixed"};
+  check_quantities("heated plate, clamped",
+                   file,
+                   1e-3,
+                   critical("3.3554289"),
+                   coarse);
   check_quantities("heated plate, SS",
                    file,
                    1e-3,
@@ -224,6 +229,30 @@ check_finite_rotations()
                       "Analysis/Time step=" + load,
                       "Analysis/End time=" + load,
                       "Mid-surface/Subdivisions=2, 2"});
+
+  // A quarter of the load; values of isogeometric cells, within 2 %
+  const std::string line      = "materials/cylinder_line_load";
+  const Settings    quarter   = {"Analysis/End time=0.25",
+                                 "Analysis/Time step=0.125",
+                                 "Analysis/Maximum time step=0.125",
+                                 "Analysis/Output times=",
+                                 "Study/Degrees=3",
+                                 "Mid-surface/Subdivisions=3, 6"};
+  const auto        deflected = [](const std::string &w) {
+    return "w = displacement z at (0, L/2, R) -> -" + w;
+  };
+  check_quantities("cylinder under a line load, rubber",
+                   line,
+                   3e-2,
+                   deflected("0.025199"),
+                   quarter);
+  check_quantities("the same, Saint Venant and Kirchhoff",
+                   line,
+                   3e-2,
+                   deflected("0.030931"),
+                   quarter + Settings{"Section/Type=isotropic",
+                                      "Section/Young's modulus=1.68e11",
+                                      "Section/Poisson's ratio=0.4"});
 }
 
 int

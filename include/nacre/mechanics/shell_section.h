@@ -4,6 +4,7 @@
 #ifndef nacre_mechanics_shell_section_h
 #define nacre_mechanics_shell_section_h
 
+#include <nacre/base/selection.h>
 #include <nacre/mechanics/elastoplastic_section.h>
 #include <nacre/mechanics/initial_strain.h>
 #include <nacre/mechanics/laminate_parameters.h>
@@ -12,10 +13,19 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 namespace Nacre
 {
+  enum class SectionType
+  {
+    isotropic,
+    laminate,
+    neo_hookean,
+    elastoplastic
+  };
+
+  const Selection<SectionType> &selection(SectionType);
+
   /** The section that 'Section/Type' chooses, with its initial strains. */
   class ShellSectionParameters : public SectionParameters
   {
@@ -35,7 +45,7 @@ namespace Nacre
     const SectionParameters &
     chosen() const;
 
-    std::string                    type_ = "isotropic";
+    SectionType                    type_ = SectionType::isotropic;
     LinearElasticSectionParameters isotropic_;
     LaminateSectionParameters      laminate_;
     NeoHookeanSectionParameters    neo_hookean_{isotropic_};
