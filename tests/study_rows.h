@@ -73,6 +73,7 @@ namespace Tests
   {
     const std::string path = SOURCE_DIR "/../../prm/" + file + ".prm";
     const Settings    all  = Settings{"Study/Name=row",
+                                  "Study/Output folder=tables",
                                   "Study/Write VTU=false",
                                   "Study/Degrees=4",
                                   "Study/Refinements=0"} +
@@ -128,8 +129,8 @@ namespace Tests
                                                        "N = " + row.scale)} +
                   row.settings);
       const double scale =
-        row.scale.empty() ? 1. : read_csv("output/row.csv").at("ratio")[0];
-      auto       columns = read_csv("output/row_modes.csv");
+        row.scale.empty() ? 1. : read_csv("tables/row.csv").at("ratio")[0];
+      auto       columns = read_csv("tables/row_modes.csv");
       const auto found =
         columns[columns.count("omega") > 0 ? "omega" : "load_factor"];
       std::vector<double> ratios;
@@ -151,7 +152,7 @@ namespace Tests
       run_study(file,
                 settings + Settings{"Quantities/Quantities=" + quantities});
       std::vector<double> ratios;
-      for (const auto &[column, values] : read_csv("output/row.csv"))
+      for (const auto &[column, values] : read_csv("tables/row.csv"))
         if (column.rfind("ratio", 0) == 0)
           ratios.push_back(values.at(0));
       return ratios;
