@@ -187,8 +187,11 @@ int
 main(int argc, char *argv[])
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  test_rotation(KinematicsModel::finite, CutTips::branch_functions);
-  test_derivatives(CutTips::branch_functions);
-  test_rotation(KinematicsModel::corotational, CutTips::branch_functions);
+  for (const auto tips : {CutTips::branch_functions, CutTips::harmonic})
+    {
+      test_rotation(KinematicsModel::finite, tips);
+      test_derivatives(tips);
+      test_rotation(KinematicsModel::corotational, tips);
+    }
   return n_failures > 0;
 }
