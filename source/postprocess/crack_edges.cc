@@ -23,19 +23,19 @@ namespace Nacre
     struct MovedLine
     {
       MovedLine(const CrackEdgeSide &side, const double s)
-        : at(side.surface, side.extension, side.u, s)
+        : at(side.surface, side.extension, s)
         , d(side.tangent + s * side.extension.gradient * side.tangent)
         , tangent(along_edge(at.frame.a_cov, d))
         , conormal((side.outward / tangent.norm()) *
                    cross_product_3d(tangent, at.frame.t0))
       {}
 
-      /** theta of (N.11), sigma left out. */
+      /** theta of (N.11), sigma left out, of a displacement there. */
       double
-      rotation() const
+      rotation(const VectorDerivatives &u) const
       {
-        return at.frame.t0 * ((at.frame.a_con[0] * conormal) * at.u.first[0] +
-                              (at.frame.a_con[1] * conormal) * at.u.first[1]);
+        return at.frame.t0 * ((at.frame.a_con[0] * conormal) * u.first[0] +
+                              (at.frame.a_con[1] * conormal) * u.first[1]);
       }
 
       MovedPoint at;
@@ -50,10 +50,11 @@ namespace Nacre
     /** A side of an edge at the advance s of the tip. */
     struct MovedEdgeSide
     {
-      MovedEdgeSide(const SectionAt     &section,
-                    const bool           is_linear,
-                    const CrackEdgeSide &side,
-                    const double         s);
+      MovedEdgeSide(const SectionAt         &section,
+                    const bool               is_linear,
+                    const CrackEdgeSide     &side,
+                    const VectorDerivatives &X,
+                    const double             s);
 
       /** d (1) of the moved surface; of unit length at s = 0. */
       Vector3 tangent;
@@ -62,39 +63,48 @@ namespace Nacre
       /** sigma t and the tangent of the deformed surface. */
       Vector3 deformed_normal;
       Vector3 deformed_tangent;
-      /** theta of (N.11), in linear kinematics. */
-      double rotation;
-      /** lambda m_nn (force). */
-      double moment;
+      /** theta of (N.11), in linear kinematics, and of X. */
+      double rotation, X_rotation;
+      /** lambda m_nn (force), and that of X's linear strains. */
+      double moment, X_moment;
       /** D(nu, nu, nu, nu) (force times length). */
       double stiffness;
     };
 
-    MovedEdgeSide::MovedEdgeSide(const SectionAt     &section,
-                                 const bool           is_linear,
-                                 const CrackEdgeSide &side,
-                                 const double         s)
+    MovedEdgeSide::MovedEdgeSide(const SectionAt         &section,
+                                 const bool               is_linear,
+                                 const CrackEdgeSide     &side,
+                                 const VectorDerivatives &X,
+                                 const double             s)
     {
       const MovedLine line(side, s);
       const auto     &at    = line.at;
       const auto     &frame = at.frame;
       const auto     &d     = line.d;
+      const auto      u     = moved(side.u, side.extension, s);
+      const auto      X_s   = moved(X, side.extension, s);
       tangent               = line.tangent;
       normal                = side.sigma * frame.t0;
-      rotation              = side.sigma * line.rotation();
+      rotation              = side.sigma * line.rotation(u);
+      X_rotation            = side.sigma * line.rotation(X_s);
       const auto dyad       = ShellStrain::dyad_of(frame, line.conormal);
-      const auto response   = at.response(section, is_linear, side.tying);
+      const auto response   = at.response(section, is_linear, u, side.tying);
+      const auto D_dyad     = response.tangent.bending * dyad;
       moment                = side.sigma * (dyad * response.moment);
-      stiffness             = dyad * (response.tangent.bending * dyad);
+      X_moment              = side.sigma *
+                 (D_dyad * ShellStrain::bending(frame, X_s.first, X_s.second));
+      stiffness = dyad * D_dyad;
       if (is_linear)
         return;
       const std::array<Vector3, 2> phi = {
-        {frame.a_cov[0] + at.u.first[0], frame.a_cov[1] + at.u.first[1]}};
+        {frame.a_cov[0] + u.first[0], frame.a_cov[1] + u.first[1]}};
       const Vector3 area = cross_product_3d(phi[0], phi[1]);
       deformed_tangent   = along_edge(phi, d);
       deformed_normal    = side.sigma / area.norm() * area;
-      moment *=
+      const double lambda =
         area.norm() / frame.j0 * tangent.norm() / deformed_tangent.norm();
+      moment *= lambda;
+      X_moment *= lambda;
     }
 
     /** From @p a to @p b about the axis @p d, in (-pi, pi] (rad). */
@@ -141,6 +151,36 @@ namespace Nacre
     , sigma(1.)
   {}
 
+  namespace
+  {
+    /** An edge at the advance s of the tip. */
+    struct MovedEdge
+    {
+      MovedEdge(const SectionAt                        &section,
+                const bool                              is_linear,
+                const std::array<CrackEdgeSide, 2>     &sides,
+                const std::array<VectorDerivatives, 2> &X,
+                const double                            s)
+      {
+        const MovedEdgeSide minus(section, is_linear, sides[0], X[0], s);
+        const MovedEdgeSide plus(section, is_linear, sides[1], X[1], s);
+        jump      = is_linear ?
+                      plus.rotation - minus.rotation :
+                      angle_about(minus.deformed_tangent,
+                             minus.deformed_normal,
+                             plus.deformed_normal) -
+                   angle_about(minus.tangent, minus.normal, plus.normal);
+        X_jump    = plus.X_rotation - minus.X_rotation;
+        stiffness = 0.5 * (minus.stiffness + plus.stiffness);
+        moment    = 0.5 * (minus.moment + plus.moment);
+        X_moment  = 0.5 * (minus.X_moment + plus.X_moment);
+        length    = minus.tangent.norm();
+      }
+
+      double jump, X_jump, stiffness, moment, X_moment, length;
+    };
+  } // namespace
+
   double
   edge_energy_change(const SectionAt                    &section,
                      const bool                          is_linear,
@@ -149,19 +189,28 @@ namespace Nacre
                      const double                        length)
   {
     const auto energy = [&](const double s) {
-      const MovedEdgeSide minus(section, is_linear, sides[0], s);
-      const MovedEdgeSide plus(section, is_linear, sides[1], s);
-      const double        jump =
-        is_linear ? plus.rotation - minus.rotation :
-                           angle_about(minus.deformed_tangent,
-                                minus.deformed_normal,
-                                plus.deformed_normal) -
-                      angle_about(minus.tangent, minus.normal, plus.normal);
-      const double D    = 0.5 * (minus.stiffness + plus.stiffness);
-      const double mean = 0.5 * (minus.moment + plus.moment);
-      return (0.5 * penalty * D * jump - mean) * jump * minus.tangent.norm();
+      const MovedEdge at(section, is_linear, sides, {}, s);
+      return (0.5 * penalty * at.stiffness * at.jump - at.moment) * at.jump *
+             at.length;
     };
     return change_with_advance(energy, length);
+  }
+
+  double
+  edge_interaction_change(const SectionAt                        &section,
+                          const bool                              is_linear,
+                          const std::array<CrackEdgeSide, 2>     &sides,
+                          const std::array<VectorDerivatives, 2> &X,
+                          const double                            penalty,
+                          const double                            length)
+  {
+    const auto work = [&](const double s) {
+      const MovedEdge at(section, is_linear, sides, X, s);
+      return ((penalty * at.stiffness * at.jump - at.moment) * at.X_jump -
+              at.X_moment * at.jump) *
+             at.length;
+    };
+    return change_with_advance(work, length);
   }
 
   double
@@ -175,7 +224,8 @@ namespace Nacre
       const MovedLine line(side, s);
       const Point<3> &x = line.at.point;
       return (load.force_at(x, line.conormal, instant) * u -
-              load.moment_at(x, instant) * line.rotation()) *
+              load.moment_at(x, instant) *
+                line.rotation(moved(side.u, side.extension, s))) *
              line.tangent.norm();
     };
     return change_with_advance(work, length);

@@ -99,29 +99,6 @@ namespace Nacre
     }
   } // namespace
 
-  VectorDerivatives
-  VectorDerivatives::plus(const double             factor,
-                          const VectorDerivatives &other) const
-  {
-    VectorDerivatives sum(*this);
-    for (unsigned int a = 0; a < first.size(); ++a)
-      sum.first[a] += factor * other.first[a];
-    for (unsigned int v = 0; v < second.size(); ++v)
-      sum.second[v] += factor * other.second[v];
-    return sum;
-  }
-
-  double
-  VectorDerivatives::norm() const
-  {
-    double squares = 0.;
-    for (const auto &derivative : first)
-      squares += derivative.norm_square();
-    for (const auto &derivative : second)
-      squares += derivative.norm_square();
-    return std::sqrt(squares);
-  }
-
   CrackExtension::CrackExtension(const CrackTip     &tip,
                                  const CrackPlateau &plateau,
                                  const SurfacePatch &surface)
@@ -225,44 +202,55 @@ namespace Nacre
                        GreenStrain::membrane(frame, u.first);
   }
 
-  MovedPoint::MovedPoint(const SurfacePatch      &surface,
-                         const CrackExtension    &extension,
-                         const VectorDerivatives &u,
-                         const double             s)
+  VectorDerivatives
+  moved(const VectorDerivatives &u,
+        const CrackExtension    &extension,
+        const double             s)
+  {
+    VectorDerivatives result(u);
+    const auto       &dq = extension.gradient;
+    for (unsigned int g = 0; g < 2; ++g)
+      {
+        for (unsigned int a = 0; a < 2; ++a)
+          result.first[a] -= s * dq[g][a] * u.first[g];
+        for (unsigned int v = 0; v < 3; ++v)
+          {
+            const auto [a, b] = pairs[v];
+            result.second[v] -= s * (dq[g][a] * u.second[pair_of(g, b)] +
+                                     dq[g][b] * u.second[pair_of(g, a)] +
+                                     extension.hessian[v][g] * u.first[g]);
+          }
+      }
+    return result;
+  }
+
+  MovedPoint::MovedPoint(const SurfacePatch   &surface,
+                         const CrackExtension &extension,
+                         const double          s)
     : point(surface.position)
-    , u(u)
   {
     const auto       &x  = surface.derivatives;
     const auto       &dq = extension.gradient;
-    VectorDerivatives moved(x);
+    VectorDerivatives here(x);
     for (unsigned int g = 0; g < 2; ++g)
       {
         const double shift = s * extension.q[g];
         for (unsigned int a = 0; a < 2; ++a)
-          moved.first[a] += shift * x.second[pair_of(a, g)];
+          here.first[a] += shift * x.second[pair_of(a, g)];
         for (unsigned int v = 0; v < 3; ++v)
-          moved.second[v] += shift * third_derivative(surface, v, g);
+          here.second[v] += shift * third_derivative(surface, v, g);
         static_cast<Point<3> &>(point) += shift * x.first[g];
-
-        for (unsigned int a = 0; a < 2; ++a)
-          this->u.first[a] -= s * dq[g][a] * u.first[g];
-        for (unsigned int v = 0; v < 3; ++v)
-          {
-            const auto [a, b] = pairs[v];
-            this->u.second[v] -= s * (dq[g][a] * u.second[pair_of(g, b)] +
-                                      dq[g][b] * u.second[pair_of(g, a)] +
-                                      extension.hessian[v][g] * u.first[g]);
-          }
       }
-    frame = make_surface_frame(moved.first[0], moved.first[1], moved.second);
+    frame = make_surface_frame(here.first[0], here.first[1], here.second);
     determinant =
       (1. + s * dq[0][0]) * (1. + s * dq[1][1]) - s * s * dq[0][1] * dq[1][0];
   }
 
   SectionResponse
-  MovedPoint::response(const SectionAt &section,
-                       const bool       is_linear,
-                       const Voigt<>   &tying) const
+  MovedPoint::response(const SectionAt         &section,
+                       const bool               is_linear,
+                       const VectorDerivatives &u,
+                       const Voigt<>           &tying) const
   {
     return section.response(tying + membrane_strain(frame, u, is_linear),
                             bending_strain(frame, u, is_linear),
@@ -280,9 +268,10 @@ namespace Nacre
                 const double             length)
   {
     const auto energy = [&](const double s) {
-      const MovedPoint at(surface, extension, u, s);
-      return at.response(section, is_linear, tying).energy * at.frame.j0 *
-             at.determinant;
+      const MovedPoint at(surface, extension, s);
+      return at.response(section, is_linear, moved(u, extension, s), tying)
+               .energy *
+             at.frame.j0 * at.determinant;
     };
     return change_with_advance(energy, length);
   }

@@ -7,8 +7,8 @@
 #include <nacre/forms/assembly.h>
 #include <nacre/forms/shell_actions.h>
 #include <nacre/mechanics/elastic_plate.h>
-#include <nacre/mechanics/shell_strain.h>
 #include <nacre/postprocess/crack_edges.h>
+#include <nacre/postprocess/crack_interaction.h>
 #include <nacre/postprocess/crack_lips.h>
 #include <nacre/postprocess/crack_points.h>
 #include <nacre/postprocess/energy_release.h>
@@ -68,50 +68,6 @@ namespace Nacre
              Text::number(x[2]) + ")";
     }
 
-    /** The size @p u in sizes @p X; 1 if it has none. */
-    double
-    multiple(const double u, const double X)
-    {
-      return u > 0. && X > 0. ? u / X : 1.;
-    }
-
-    /**
-     * A field @p X in equilibrium in the tangent plane of the tip needs loads
-     * on a curved surface, which do work as u moves with the tip. Per area
-     * (force/length), those at the lips included, it is what the virtual work
-     * of X's membrane forces on v = u,g q^g differs by from that in the plane:
-     *
-     *   eps(X) : A : eps(v) - eps(P X) : A : eps(P v),  P = 1 - e_3 e_3.
-     *
-     * The loads that its moments need are smaller by (h/r)^2.
-     */
-    double
-    held_work(const SectionLaw        &section,
-              const CrackTip          &tip,
-              const SurfacePatch      &surface,
-              const SurfaceFrame<>    &frame,
-              const VectorDerivatives &X,
-              const VectorDerivatives &u,
-              const CrackExtension    &extension)
-    {
-      const auto            &q  = extension.q;
-      const auto            &dq = extension.gradient;
-      std::array<Vector3, 2> v; // v,1 and v,2
-      for (unsigned int a = 0; a < 2; ++a)
-        v[a] = q[a] * u.second[a] + q[1 - a] * u.second[2] +
-               dq[0][a] * u.first[0] + dq[1][a] * u.first[1];
-      const auto in_plane = [&](const std::array<Vector3, 2> &d) {
-        const auto &e_3 = tip.axes[2];
-        return ShellStrain::membrane(frame,
-                                     d[0] - (d[0] * e_3) * e_3,
-                                     d[1] - (d[1] * e_3) * e_3);
-      };
-      const auto A = section.stiffness(frame, surface.position).membrane;
-      return A * ShellStrain::membrane(frame, X.first[0], X.first[1]) *
-               ShellStrain::membrane(frame, v[0], v[1]) -
-             A * in_plane(X.first) * in_plane(v);
-    }
-
     /**
      * The force per area of the undeformed surface (force/length^2), that of
      * inertia and of mass damping included: d'Alembert's -rho h (a + c v). The
@@ -146,6 +102,7 @@ namespace Nacre
     : shell_(shell)
     , tip_(tip)
     , plateau_(plateau)
+    , is_linear_(shell.model.kinematics.model == KinematicsModel::linear)
     , where_(where + ": within " + Text::number(plateau.outer) +
              " of the tip at " + coordinates_of(tip.position) + " ")
   {
@@ -156,6 +113,7 @@ namespace Nacre
     run_on_all_ranks(shell.discretization.communicator(),
                      [&]() { check_inside(); });
     check_lips();
+    rotation_ = mean_rotation();
   }
 
   void
@@ -220,6 +178,24 @@ namespace Nacre
         if (nearest < plateau_.outer + extent)
           function(part);
       }
+  }
+
+  void
+  EnergyRelease::for_each_points(
+    const std::function<void(const CrackPoints &, const CellPart &)> &function)
+    const
+  {
+    CrackPoints points(shell_, ring_quadrature(shell_.discretization));
+    for_each_part([&](const CellPart &part) {
+      if (!part.is_cut() && part.enrichment() == nullptr)
+        {
+          points.reinit(part);
+          return function(points, part);
+        }
+      CrackPoints of_part(shell_, ring_quadrature(shell_.discretization, part));
+      of_part.reinit(part);
+      function(of_part, part);
+    });
   }
 
   void
@@ -332,9 +308,7 @@ namespace Nacre
   EnergyRelease::check_lips() const
   {
     const auto &supports = shell_.model.supports.edges();
-    const bool  is_linear =
-      shell_.model.kinematics.model == KinematicsModel::linear;
-    double length = 0.;
+    double      length   = 0.;
     run_on_all_ranks(shell_.discretization.communicator(), [&]() {
       for_each_lip_point([&](const LipPoint &lip) {
         const Point<3>     x = lip.points.surface(lip.q).position;
@@ -348,7 +322,7 @@ namespace Nacre
                                "cut, or the crack turns" +
                                at));
         length += lip.divergence;
-        AssertThrow(is_linear || lip.load.moment == nullptr ||
+        AssertThrow(is_linear_ || lip.load.moment == nullptr ||
                       lip.load.moment->is_zero(),
                     ExcMessage(where_ +
                                "a moment acts on a lip of the crack, which "
@@ -373,16 +347,14 @@ namespace Nacre
   }
 
   void
-  EnergyRelease::add_part(CrackPoints                      &points,
+  EnergyRelease::add_part(const CrackPoints                &points,
                           const CellPart                   &part,
                           const std::vector<WilliamsField> &fields,
                           std::vector<double>              &sums) const
   {
-    const bool is_linear =
-      shell_.model.kinematics.model == KinematicsModel::linear;
-    const double width = plateau_.outer - plateau_.inner;
-    points.reinit(part);
-    const double side = side_of_crack(shell_.discretization, tip_, part);
+    const SectionLaw &section = *shell_.model.section;
+    const double      width   = plateau_.outer - plateau_.inner;
+    const double      side = side_of_crack(shell_.discretization, tip_, part);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const auto surface = points.surface(q);
@@ -394,32 +366,41 @@ namespace Nacre
         const auto           tying  = points.tying(q);
         const double         weight = points.weight(q);
         const auto load = surface_load(shell_, points, q, surface.position, u);
-        const auto change = [&](const VectorDerivatives &v) {
-          return energy_change(shell_.section(),
-                               is_linear,
-                               surface,
-                               extension,
-                               v,
-                               tying,
-                               width);
-        };
-        sums[0] -=
-          weight * (change(u) + load * carried(u, extension) * frame.j0);
+        sums[0] -= weight * (energy_change(shell_.section(),
+                                           is_linear_,
+                                           surface,
+                                           extension,
+                                           u,
+                                           tying,
+                                           width) +
+                             load * carried(u, extension) * frame.j0);
+        if (fields.empty())
+          continue;
+        const auto w = turned_back(rotation_, surface, u);
+        const auto n = is_linear_ ?
+                         Voigt<>() :
+                         MovedPoint(surface, extension, 0.)
+                           .response(shell_.section(), is_linear_, w, tying)
+                           .membrane_force;
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
             const auto X = williams_derivatives(fields[i], tip_, side, surface);
-            const double held  = held_work(*shell_.model.section,
-                                          tip_,
-                                          surface,
-                                          frame,
-                                          X,
-                                          u,
-                                          extension);
-            const double times = multiple(u.norm(), X.norm());
+            double     held =
+              held_work(section, tip_, surface, frame, X, w, extension);
+            if (!is_linear_)
+              held +=
+                bent_work(section, tip_, surface, frame, X, w, n, extension);
             sums[i + 1] -=
               weight *
-              ((change(u.plus(times, X)) - change(u.plus(-times, X))) / times +
-               2. * (load * carried(X, extension) + held) * frame.j0);
+              (interaction_change(shell_.section(),
+                                  is_linear_,
+                                  surface,
+                                  extension,
+                                  w,
+                                  tying,
+                                  X,
+                                  width) +
+               (load * (rotation_ * carried(X, extension)) + held) * frame.j0);
           }
       }
   }
@@ -449,22 +430,21 @@ namespace Nacre
       }
     const double penalty =
       shell_.assembly.penalty().interior(edge.part(0), edge.part(1));
+    const double width = plateau_.outer - plateau_.inner;
     for (unsigned int q = 0; q < edge.n_points(); ++q)
       {
         if (!is_inside(q))
           continue;
-        const std::array<CrackEdgeSide, 2> sides = {
+        std::array<CrackEdgeSide, 2> sides = {
           {CrackEdgeSide(tip_, plateau_, edge, 0, q, points[0]),
            CrackEdgeSide(tip_, plateau_, edge, 1, q, points[1])}};
-        const auto change = [&](const std::array<CrackEdgeSide, 2> &of) {
-          return edge_energy_change(shell_.section(),
-                                    shell_.model.kinematics.model ==
-                                      KinematicsModel::linear,
-                                    of,
-                                    penalty,
-                                    plateau_.outer - plateau_.inner);
-        };
-        sums[0] -= edge.JxW(q) * change(sides);
+        sums[0] -= edge.JxW(q) * edge_energy_change(shell_.section(),
+                                                    is_linear_,
+                                                    sides,
+                                                    penalty,
+                                                    width);
+        for (CrackEdgeSide &side : sides)
+          side.u = turned_back(rotation_, side.surface, side.u);
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
             std::array<VectorDerivatives, 2> X;
@@ -473,15 +453,13 @@ namespace Nacre
                                           tip_,
                                           side_of_lip[s],
                                           sides[s].surface);
-            const double times = multiple(sides[0].u.norm() + sides[1].u.norm(),
-                                          X[0].norm() + X[1].norm());
-            auto         plus = sides, minus = sides;
-            for (unsigned int s = 0; s < 2; ++s)
-              {
-                plus[s].u  = sides[s].u.plus(times, X[s]);
-                minus[s].u = sides[s].u.plus(-times, X[s]);
-              }
-            sums[i + 1] -= edge.JxW(q) * (change(plus) - change(minus)) / times;
+            sums[i + 1] -=
+              edge.JxW(q) * edge_interaction_change(shell_.section(),
+                                                    is_linear_,
+                                                    sides,
+                                                    X,
+                                                    penalty,
+                                                    width);
           }
       }
   }
@@ -510,24 +488,43 @@ namespace Nacre
           const auto &X = fields[i];
           side.u        = williams_derivatives(X, tip_, lip.side, side.surface);
           sums[i + 1] +=
-            2. *
-            change(williams_value(X, tip_, lip.side, side.surface.position));
+            change(rotation_ *
+                   williams_value(X, tip_, lip.side, side.surface.position));
         }
     });
+  }
+
+  Tensor<2, 3>
+  EnergyRelease::mean_rotation() const
+  {
+    Tensor<2, 3> F(unit_symmetric_tensor<3>());
+    if (is_linear_)
+      return F;
+    F = 0.;
+    run_on_all_ranks(shell_.discretization.communicator(), [&]() {
+      for_each_points([&](const CrackPoints &points, const CellPart &) {
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            const auto surface = points.surface(q);
+            if (surface.position.distance(tip_.position) >= plateau_.outer)
+              continue;
+            F += points.weight(q) * points.frame(q).j0 *
+                 deformation_gradient(points.frame(q), points.derivatives(q));
+          }
+      });
+    });
+    return project_onto_orthogonal_tensors(
+      Utilities::MPI::sum(F, shell_.discretization.communicator()));
   }
 
   std::vector<double>
   EnergyRelease::release(const std::vector<WilliamsField> &fields) const
   {
     const auto         &discretization = shell_.discretization;
-    CrackPoints         points(shell_, ring_quadrature(discretization));
     std::vector<double> sums(fields.size() + 1, 0.);
     run_on_all_ranks(discretization.communicator(), [&]() {
-      for_each_part([&](const CellPart &part) {
-        if (!part.is_cut() && part.enrichment() == nullptr)
-          return add_part(points, part, fields, sums);
-        CrackPoints of_part(shell_, ring_quadrature(discretization, part));
-        add_part(of_part, part, fields, sums);
+      for_each_points([&](const CrackPoints &points, const CellPart &part) {
+        add_part(points, part, fields, sums);
       });
       for_each_edge(
         [&](const ShellEdgeValues &edge) { add_edge(edge, fields, sums); });
@@ -548,7 +545,7 @@ namespace Nacre
   {
     const auto plate = plate_or_throw();
     return release({unit_williams_field(mode, plate)})[1] /
-           (4. * unit_release_rate(mode, plate));
+           (2. * unit_release_rate(mode, plate));
   }
 
   EnergyRelease::All
@@ -565,15 +562,13 @@ namespace Nacre
     All        all{sums[0], {}};
     for (unsigned int i = 0; i < modes.size(); ++i)
       all.intensities[i] =
-        sums[i + 1] / (4. * unit_release_rate(modes[i], plate));
+        sums[i + 1] / (2. * unit_release_rate(modes[i], plate));
     return all;
   }
 
   std::optional<ElasticPlate>
   EnergyRelease::plate() const
   {
-    if (shell_.model.kinematics.model != KinematicsModel::linear)
-      return {};
     return elastic_plate(*shell_.model.section,
                          tip_.position,
                          tip_.axes[0],
@@ -583,10 +578,6 @@ namespace Nacre
   ElasticPlate
   EnergyRelease::plate_or_throw() const
   {
-    AssertThrow(shell_.model.kinematics.model == KinematicsModel::linear,
-                ExcMessage(where_ + "stress intensity factors are those of "
-                                    "'Kinematics = linear'; the energy "
-                                    "release rate is known for all."));
     const auto plate = this->plate();
     AssertThrow(plate.has_value(),
                 ExcMessage(where_ + "the section isn't homogeneous and "

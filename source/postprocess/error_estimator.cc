@@ -70,7 +70,7 @@ namespace Nacre
       return result;
     }
 
-    /** W of the parts of this rank and their ghosts. */
+    /** W of all parts; nothing is estimated where tips have functions. */
     void
     fill_weights()
     {
@@ -81,6 +81,8 @@ namespace Nacre
                              ShellCellValues::Points::given);
       for (const CellPart &part : discretization_.relevant_parts())
         {
+          if (part.enrichment() != nullptr)
+            continue;
           values.reinit_frames(part);
           const auto frame = deformed_frame_at(part, values, 0);
           weights_[part.index()] =
@@ -134,7 +136,6 @@ namespace Nacre
       run_on_all_ranks(discretization_.communicator(), [&]() {
         for (const CellPart &part : discretization_.owned_parts())
           {
-            // Nothing is estimated where tips have functions.
             if (part.enrichment() == nullptr)
               add_cell(part);
             add_lips(part);

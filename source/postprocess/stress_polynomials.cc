@@ -122,6 +122,8 @@ namespace Nacre
     std::vector<types::global_dof_index> dofs;
     for (const CellPart &part : discretization.relevant_parts())
       {
+        if (part.enrichment() != nullptr)
+          continue;
         is_linear ? values.reinit(part) : values.reinit_frames(part);
         discretization.get_dof_indices(part, dofs);
         for (unsigned int d = 0; d < n_displacements_; ++d)

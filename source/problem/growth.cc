@@ -125,9 +125,8 @@ namespace Nacre
     add_parameter("Direction",
                   direction_text_,
                   "hoop stress: perpendicular to the largest tension around "
-                  "the tip, over the faces and the middle of the shell, with "
-                  "the criterion energy release rate in linear kinematics "
-                  "only; straight: as the cut ends; or a vector "
+                  "the tip, over the faces and the middle of the shell; "
+                  "straight: as the cut ends; or a vector "
                   "'dx, dy, dz', expressions of x, y, z and t, of which the "
                   "part along the surface counts. default: hoop stress for the "
                   "criteria strength and, in linear kinematics, energy "
@@ -162,7 +161,7 @@ namespace Nacre
   GrowthParameters::make(const Constants &constants,
                          const Cuts      &cuts,
                          const bool       is_path,
-                         const bool       has_intensities) const
+                         const bool       is_linear) const
   {
     Growth growth;
     growth.starting_cracks = starting_;
@@ -185,7 +184,7 @@ namespace Nacre
     growth.maximum_steps = maximum_steps_;
     check_uses(is_path);
     read_criterion(constants, growth);
-    read_direction(constants, has_intensities, growth);
+    read_direction(constants, is_linear, growth);
     growth.step = read_cell_length(step_text_, step_parameter, constants);
     AssertThrow(!growth.step.is_in_cells || growth.step.value >= 1.,
                 ExcMessage(step_parameter + ": found '" + step_text_ +
@@ -283,13 +282,13 @@ namespace Nacre
 
   void
   GrowthParameters::read_direction(const Constants &constants,
-                                   const bool       has_intensities,
+                                   const bool       is_linear,
                                    Growth          &growth) const
   {
     const std::string text = Text::trim(direction_text_);
     if (text == "default")
       growth.direction =
-        growth.is_by_strength() || (has_intensities && growth.is_by_energy()) ?
+        growth.is_by_strength() || (is_linear && growth.is_by_energy()) ?
           GrowthDirection::hoop_stress :
           GrowthDirection::straight;
     else if (text == "hoop stress")
@@ -307,12 +306,6 @@ namespace Nacre
         growth.along =
           VectorExpression(text, direction_parameter, constants, "x,y,z,t");
       }
-    AssertThrow(growth.direction != GrowthDirection::hoop_stress ||
-                  has_intensities || growth.is_by_strength(),
-                ExcMessage(direction_parameter +
-                           ": 'hoop stress' needs stress intensities, which "
-                           "'Discretization/Kinematics = linear' has only; "
-                           "choose 'straight' or a vector 'dx, dy, dz'."));
   }
 
   void

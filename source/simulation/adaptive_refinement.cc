@@ -144,20 +144,14 @@ namespace Nacre
     AssertThrow(tip_size_ == 0. || !problem.model.cuts.is_empty(),
                 ExcMessage(section + "Cells at tips: there are no cuts "
                                      "(Cuts/Cuts); set it to 0."));
-    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
-                  problem.model.cuts.tips == CutTips::branch_functions,
-                ExcMessage(
-                  section +
-                  "Cycles: errors aren't estimated with 'Cuts/Tips = " +
-                  name_of(problem.model.cuts.tips) +
-                  "'; set it to 0, or choose 'closed' or 'branch functions'."));
-    AssertThrow(problem.model.cuts.tips == CutTips::closed ||
+    AssertThrow(problem.model.cuts.tips != CutTips::branch_functions ||
                   !problem.model.cuts.tips_turn,
                 ExcMessage(section +
-                           "Cycles: in large rotations errors aren't estimated "
-                           "with 'Cuts/Tips = " +
-                           name_of(problem.model.cuts.tips) +
-                           "'; set it to 0, or choose 'closed'."));
+                           "Cycles: in large rotations meshes with 'Cuts/Tips "
+                           "= branch functions' aren't refined, since the "
+                           "functions' part of the displacements would be "
+                           "dropped; set it to 0, or choose 'closed' or "
+                           "'harmonic'."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage(section +
                            "Cycles: cuts that grow (Growth/Tips) keep their "

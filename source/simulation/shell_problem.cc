@@ -242,12 +242,6 @@ namespace Nacre
                 ExcMessage("Cuts/Tips: " + tips +
                            " is for quadrilaterals; choose 'closed' or "
                            "'branch functions' for triangles."));
-    AssertThrow(!problem.growth.is_on() || !problem.model.cuts.tips_turn,
-                ExcMessage("Growth/Tips: in large rotations cuts with "
-                           "'Cuts/Tips = " +
-                           name_of(problem.model.cuts.tips) +
-                           "' don't grow, since what the old tip's functions "
-                           "hold would be dropped; choose 'closed'."));
     AssertThrow(!problem.growth.is_on() || !problem.path.is_dynamic(),
                 ExcMessage("Growth/Tips: in motions cuts with 'Cuts/Tips = " +
                            name_of(problem.model.cuts.tips) +

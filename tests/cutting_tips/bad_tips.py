@@ -23,11 +23,6 @@ case("growing_in_motion", ["Growth/Tips", "'Cuts/Tips = branch functions'"],
      {"Analysis/Type": "dynamic", "Growth/Tips": "crack end",
       "Growth/Toughness": "1", "Section/Density": "1",
       "Quantities/Quantities": ""}, ["--check"])
-case("growing_in_large_rotations",
-     ["Growth/Tips", "large rotations", "'Cuts/Tips = branch functions'"],
-     {"Analysis/Type": "static", "Discretization/Kinematics": "finite",
-      "Growth/Tips": "crack end", "Growth/Toughness": "1",
-      "Quantities/Quantities": ""}, ["--check"])
 case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
      {"Section/Type": "laminate", "Quantities/Quantities": "",
       "Section/Laminate/Materials":
@@ -52,10 +47,8 @@ case("radius_of_bent_surface", ["Cuts/Tips", "'Cuts/Tip radius'",
       "Boundary conditions/Edges": "v=0: fixed"})
 case("point_force", ["Loads", "two cells of the tip", "'Cuts/Tips = closed'"],
      {"Loads/Point forces": "(0.55, 0.2, 0): 0, 0, 1"})
-case("cycles", ["Adaptive refinement/Cycles", "harmonic"],
-     {"Cuts/Tips": "harmonic", "Adaptive refinement/Cycles": "1"}, ["--check"])
 case("cycles_in_large_rotations",
-     ["Adaptive refinement/Cycles", "large rotations", "'closed'"],
+     ["Adaptive refinement/Cycles", "large rotations", "'harmonic'"],
      {"Analysis/Type": "static", "Discretization/Kinematics": "finite",
       "Quantities/Quantities": "", "Adaptive refinement/Cycles": "1",
       "Adaptive refinement/Every steps": "1"}, ["--check"])

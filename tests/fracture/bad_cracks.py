@@ -46,10 +46,6 @@ case("plateau_point_force", "K_I of tip (a, 0, 0)",
 case("plateau_lips_held", "K_I of tip (a, 0, 0)",
      ["lip of the crack is supported"],
      {"Boundary conditions/Edges": "left: symmetry; upper: y = 0"})
-case("intensity_finite", "K_I of tip (a, 0, 0)",
-     ["Kinematics = linear", "energy release rate is known"],
-     {"Discretization/Kinematics": "finite", "Analysis/Type": "static",
-      "Constants": "a = 0.5, N = 1e-3, M = 1e-5"})
 
 
 def cut(name, quantity, expect, cuts=None, args=("--check",), remove=""):

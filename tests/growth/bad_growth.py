@@ -79,10 +79,6 @@ case("growth_direction", ["Growth/Direction: found 'up'", "'dx, dy, dz'"],
      Direction="up")
 case("growth_hoop_of_knife", ["Growth/Direction: 'hoop stress'"],
      Criterion="prescribed", Toughness="", Direction="hoop stress")
-case("growth_hoop_in_rotations",
-     ["Growth/Direction", "Discretization/Kinematics = linear"],
-     Direction="hoop stress", **{"Analysis/Type": "static",
-                                 "Discretization/Kinematics": "finite"})
 case("growth_short_step", ["Growth/Step: at the tip 'slit end'", "too short"],
      args=(), Step="0.01")
 case("growth_long_step", ["Growth/Step: 3 is longer than the shell", "1.4"],

@@ -72,6 +72,23 @@ namespace Nacre
                      const double                        length);
 
   /**
+   * The same of the interaction with a field X, whose rotations and moments are
+   * those of linear kinematics, see interaction_change():
+   *
+   *   W(s) = [(eta^e D theta - {lambda m_nn}) theta(X)
+   *           - {lambda m_nn(X)} theta] |d + s d.dq|.
+   *
+   * @param X derivatives (1) on both sides
+   */
+  double
+  edge_interaction_change(const SectionAt                        &section,
+                          const bool                              is_linear,
+                          const std::array<CrackEdgeSide, 2>     &sides,
+                          const std::array<VectorDerivatives, 2> &X,
+                          const double                            penalty,
+                          const double                            length);
+
+  /**
    * d/ds at s = 0 of the work of a dead load of a lip, per length of the
    * undeformed lip (force), as its points move and carry the displacement u
    * along:

@@ -50,14 +50,6 @@ namespace Nacre
     std::array<Tensor<1, 3>, 2> first;
     /** 11, 22, 12. */
     std::array<Tensor<1, 3>, 3> second;
-
-    /** The sum with @p factor times @p other. */
-    VectorDerivatives
-    plus(const double factor, const VectorDerivatives &other) const;
-
-    /** Root of the sum of all squares. */
-    double
-    norm() const;
   };
 
   /** The mid-surface at a point, as far as a moving point feels it. */
@@ -125,23 +117,37 @@ namespace Nacre
                   const VectorDerivatives &u,
                   const bool               is_linear);
 
-  /** The surface and a displacement that it carries along, at the advance s. */
+  /**
+   * What the derivatives of a vector of space become at the advance s if points
+   * carry it along:
+   *
+   *   u,a -> u,a - s u,g q^g,a,
+   *   u,ab -> u,ab - s (u,gb q^g,a + u,ga q^g,b + u,g q^g,ab).
+   */
+  VectorDerivatives
+  moved(const VectorDerivatives &u,
+        const CrackExtension    &extension,
+        const double             s);
+
+  /** The surface at the advance s. */
   struct MovedPoint
   {
-    MovedPoint(const SurfacePatch      &surface,
-               const CrackExtension    &extension,
-               const VectorDerivatives &u,
-               const double             s);
+    MovedPoint(const SurfacePatch   &surface,
+               const CrackExtension &extension,
+               const double          s);
 
-    /** @param tying as in energy_change() */
+    /**
+     * What the section answers to the displacement @p u there.
+     * @param tying as in energy_change()
+     */
     SectionResponse
-    response(const SectionAt &section,
-             const bool       is_linear,
-             const Voigt<>   &tying) const;
+    response(const SectionAt         &section,
+             const bool               is_linear,
+             const VectorDerivatives &u,
+             const Voigt<>           &tying) const;
 
-    SurfaceFrame<>    frame;
-    SectionPoint      point;
-    VectorDerivatives u;
+    SurfaceFrame<> frame;
+    SectionPoint   point;
     /** Of the parameters' area. */
     double determinant;
   };
@@ -164,11 +170,9 @@ namespace Nacre
   /**
    * d/ds of the stored energy per area of the reference cell at s = 0, as the
    * parameters move, xi -> xi + s q(xi), with the displacement carried along as
-   * a vector of space:
+   * a vector of space, see moved():
    *
    *   W(s) j0(s) det(1 + s dq),
-   *   u,a -> u,a - s u,g q^g,a,
-   *   u,ab -> u,ab - s (u,gb q^g,a + u,ga q^g,b + u,g q^g,ab),
    *
    * and the surface, hence the section, taken at xi + s q.
    *

@@ -56,14 +56,15 @@ namespace Nacre
 
     /**
      * The intensity, as unit_williams_field() defines it, by the interaction
-     * of the displacement u with a unit field X,
+     * I of the displacement u with a unit field X, g = unit_release_rate(),
      *
-     *   K = [G(u + X) - G(u - X)] / (4 g),
+     *   K = I/(2 g),  I = [G(u + X) - G(u - X)]/2
      *
-     * g = unit_release_rate(). G is quadratic, so that at each point a multiple
-     * of X of the size of u gives the same with less round-off, in any units.
-     * Throws unless the kinematics are linear and the
-     * section is homogeneous and isotropic. Collective.
+     * in linear kinematics. In large rotations of small strains I is that of
+     * the Green strains with the linear strains of X, the displacement being
+     * taken as seen from the surface around the tip, which turns with it, plus
+     * what membrane forces do on the bent surface. Throws unless the section is
+     * homogeneous and isotropic. Collective.
      */
     double
     intensity(const CrackMode mode) const;
@@ -80,8 +81,8 @@ namespace Nacre
     rate_and_intensities(const ElasticPlate &plate) const;
 
     /**
-     * The plate at the tip; none unless the kinematics are linear and the
-     * section is homogeneous and isotropic.
+     * The plate at the tip; none unless the section is homogeneous and
+     * isotropic.
      */
     std::optional<ElasticPlate>
     plate() const;
@@ -121,6 +122,12 @@ namespace Nacre
     void
     for_each_part(const std::function<void(const CellPart &)> &function) const;
 
+    /** For the same parts, with points that suit each. */
+    void
+    for_each_points(
+      const std::function<void(const CrackPoints &, const CellPart &)>
+        &function) const;
+
     /** For the free sides' points that move. */
     void
     for_each_lip_point(
@@ -143,8 +150,12 @@ namespace Nacre
     void
     check_inside() const;
 
+    /** How the surface around the tip has turned; 1 in linear kinematics. */
+    Tensor<2, 3>
+    mean_rotation() const;
+
     /**
-     * G of the displacement u, and behind it G(u + X) - G(u - X) of each of the
+     * G of the displacement u, and behind it the interaction I with each of the
      * @p fields X, as intensity() has it. Collective.
      */
     std::vector<double>
@@ -152,7 +163,7 @@ namespace Nacre
 
     /** Add what a part releases. */
     void
-    add_part(CrackPoints                      &points,
+    add_part(const CrackPoints                &points,
              const CellPart                   &part,
              const std::vector<WilliamsField> &fields,
              std::vector<double>              &sums) const;
@@ -171,7 +182,10 @@ namespace Nacre
     const SolvedShell &shell_;
     const CrackTip     tip_;
     const CrackPlateau plateau_;
+    const bool         is_linear_;
     const std::string  where_;
+    /** R. */
+    Tensor<2, 3> rotation_;
   };
 } // namespace Nacre
 

@@ -25,7 +25,8 @@ namespace Nacre
    *   M^ab = sqrt a m^ab t0                            ab = 11, 22, 12
    * of which the internal forces are sqrt a f^b = N^b + M^ab,a. They take the
    * form of the element's functions, through their values at the points of its
-   * full rule, and can be differentiated and continued to the edges.
+   * full rule, and can be differentiated and continued to the edges. Parts that
+   * have functions of tips have zeros.
    *
    * In large rotations n and m are those of GreenStrain, a_a, t0 and Gamma are
    * the deformed surface's, and sqrt a stays that of the undeformed one: then

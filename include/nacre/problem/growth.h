@@ -135,13 +135,13 @@ namespace Nacre
      * Throws an ExcMessage for tips that no cut has, and for parameters that
      * don't go together.
      * @param is_path whether the analysis has a time
-     * @param has_intensities whether stress intensities are known
+     * @param is_linear whether kinematics are; decides the default direction
      */
     Growth
     make(const Constants &constants,
          const Cuts      &cuts,
          const bool       is_path,
-         const bool       has_intensities) const;
+         const bool       is_linear) const;
 
   private:
     void
@@ -157,7 +157,7 @@ namespace Nacre
 
     void
     read_direction(const Constants &constants,
-                   const bool       has_intensities,
+                   const bool       is_linear,
                    Growth          &growth) const;
 
     void
