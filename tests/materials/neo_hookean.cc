@@ -60,8 +60,8 @@ test_derivatives()
                   rest.bending.norm(),
               1e-13);
   // A sheet that keeps its volume: E = 3 mu, nu = 1/2
-  const auto linear = LinearElasticSection(3., 0.5, 0.3)
-                        .stiffness(skewed_frame(), Point<3>());
+  const auto linear =
+    LinearElasticSection(3., 0.5, 0.3).stiffness(skewed_frame(), Point<3>());
   check_below("isotropic section of nu = 1/2",
               (rest.membrane - linear.membrane).norm() /
                   linear.membrane.norm() +
