@@ -104,27 +104,16 @@ namespace Nacre
     if (!cuts.remove.empty())
       remove(cuts.remove);
     if (cuts.tips == CutTips::branch_functions && !tips_.empty())
-      tip_patches_ = std::make_unique<TipPatches>(
-        dof_handler_,
-        *scalar_fe_,
-        node_dofs_,
-        cuts,
-        tips_,
-        cut_lines_,
-        [this](const CellPart &part) { return node_positions(part); },
-        parts_);
+      tip_patches_ = std::make_unique<TipPatches>(mesh_nodes(),
+                                                  cuts,
+                                                  tips_,
+                                                  cut_lines_,
+                                                  parts_);
     if ((cuts.tips == CutTips::harmonic ||
          cuts.tips == CutTips::harmonic_all_components) &&
         !tips_.empty())
-      tip_openings_ = std::make_unique<TipOpenings>(
-        dof_handler_,
-        *scalar_fe_,
-        face_nodes_,
-        node_dofs_,
-        cuts,
-        tips_,
-        [this](const CellPart &part) { return node_positions(part); },
-        parts_);
+      tip_openings_ =
+        std::make_unique<TipOpenings>(mesh_nodes(), cuts, tips_, parts_);
     number_dofs();
   }
 
@@ -199,13 +188,21 @@ namespace Nacre
     return tip_openings_.get();
   }
 
+  MeshNodes
+  Discretization::mesh_nodes() const
+  {
+    return {dof_handler_,
+            *scalar_fe_,
+            face_nodes_,
+            node_dofs_,
+            [this](const CellPart &part) { return node_positions(part); }};
+  }
+
   void
   Discretization::number_dofs(const bool extends_parts)
   {
     numbering_ = std::make_unique<PartNumbering>(
-      dof_handler_,
-      face_nodes_,
-      node_dofs_,
+      mesh_nodes(),
       parts_,
       tip_dofs() != nullptr ? tip_dofs()->n_owned_functions() : 0,
       tip_openings_ != nullptr ? tip_openings_->split_nodes() : SplitNodes());
@@ -225,14 +222,7 @@ namespace Nacre
   {
     std::optional<PartExtension> extension;
     if (extends_parts)
-      extension.emplace(
-        dof_handler_,
-        *scalar_fe_,
-        node_dofs_,
-        smallest_part_,
-        [this](const CellPart &part) { return node_positions(part); },
-        *numbering_,
-        parts_);
+      extension.emplace(mesh_nodes(), smallest_part_, *numbering_, parts_);
     if (TipDofs *const tips = tip_dofs())
       {
         tips->complete(numbering_->ends_of_ranks(), parts_);

@@ -46,20 +46,12 @@ namespace Nacre
     return unit;
   }
 
-  PartExtension::PartExtension(
-    const DoFHandler<dim, spacedim>    &dof_handler,
-    const FiniteElement<dim, spacedim> &scalar_fe,
-    const std::vector<unsigned int>    &node_dofs,
-    const double                        smallest_part,
-    const std::function<std::vector<Point<spacedim>>(const CellPart &)>
-                        &nodes_of_cell,
-    const PartNumbering &numbering,
-    CellParts           &parts)
-    : dof_handler_(dof_handler)
-    , scalar_fe_(scalar_fe)
-    , node_dofs_(node_dofs)
+  PartExtension::PartExtension(const MeshNodes     &mesh,
+                               const double         smallest_part,
+                               const PartNumbering &numbering,
+                               CellParts           &parts)
+    : mesh_(mesh)
     , smallest_part_(smallest_part)
-    , nodes_of_cell_(nodes_of_cell)
     , n_dofs_(numbering.n_dofs())
     , split_nodes_(numbering.split_nodes())
     , parts_(parts)
@@ -82,9 +74,9 @@ namespace Nacre
             root.cell     = cell->id();
             root.part     = part.number;
             root.dofs     = part.dofs;
-            root.nodes    = nodes_of_cell_(CellPart(cell, &part));
+            root.nodes    = mesh_.positions(CellPart(cell, &part));
           }
-    const auto communicator = dof_handler_.get_communicator();
+    const auto communicator = mesh_.dof_handler.get_communicator();
     // Not from the cell of a tip that is open, unless there is no other.
     for (const bool crosses_split_nodes : {false, true})
       while (Utilities::MPI::max(ask_neighbors(crosses_split_nodes) ? 1 : 0,
@@ -155,10 +147,11 @@ namespace Nacre
   void
   PartExtension::exchange_roots()
   {
-    if (Utilities::MPI::n_mpi_processes(dof_handler_.get_communicator()) == 1)
+    if (Utilities::MPI::n_mpi_processes(mesh_.dof_handler.get_communicator()) ==
+        1)
       return;
     GridTools::exchange_cell_data_to_ghosts<std::vector<Root>>(
-      dof_handler_,
+      mesh_.dof_handler,
       [&](
         const CellPart::Cell &cell) -> std_cxx17::optional<std::vector<Root>> {
         if (!parts_.is_cut(cell))
@@ -196,16 +189,16 @@ namespace Nacre
         const PartNode &first = members.front();
         const PartData &part  = parts_.parts(first.cell)[first.part];
         const auto      unit =
-          continued_point(scalar_fe_,
+          continued_point(mesh_.scalar_fe,
                           root->nodes,
-                          nodes_of_cell_(CellPart(first.cell))[first.node]);
+                          mesh_.positions(CellPart(first.cell))[first.node]);
         Line            line;
         Point<spacedim> position;
         for (unsigned int c = 0; c < spacedim; ++c)
-          line.dofs[c] = part.dofs[node_dofs_[spacedim * first.node + c]];
+          line.dofs[c] = part.dofs[mesh_.node_dofs[spacedim * first.node + c]];
         for (unsigned int a = 0; a < root->nodes.size(); ++a)
           {
-            const double weight = scalar_fe_.shape_value(a, unit);
+            const double weight = mesh_.scalar_fe.shape_value(a, unit);
             position += weight * root->nodes[a];
             if (std::abs(weight) < 1e-14)
               continue;
@@ -213,7 +206,8 @@ namespace Nacre
             line.masters.emplace_back();
             line.master_positions.push_back(root->nodes[a]);
             for (unsigned int c = 0; c < spacedim; ++c)
-              line.masters.back()[c] = root->dofs[node_dofs_[spacedim * a + c]];
+              line.masters.back()[c] =
+                root->dofs[mesh_.node_dofs[spacedim * a + c]];
           }
         line.position = position;
         lines_.push_back(line);
@@ -221,7 +215,7 @@ namespace Nacre
           {
             PartData &data = parts_.parts(member.cell)[member.part];
             if (data.nodes.empty())
-              data.nodes = nodes_of_cell_(CellPart(member.cell));
+              data.nodes = mesh_.positions(CellPart(member.cell));
             data.nodes[member.node] = position;
           }
       }
@@ -230,11 +224,12 @@ namespace Nacre
   void
   PartExtension::exchange_nodes()
   {
-    if (Utilities::MPI::n_mpi_processes(dof_handler_.get_communicator()) == 1)
+    if (Utilities::MPI::n_mpi_processes(mesh_.dof_handler.get_communicator()) ==
+        1)
       return;
     using Message = std::vector<std::vector<Point<spacedim>>>;
     GridTools::exchange_cell_data_to_ghosts<Message>(
-      dof_handler_,
+      mesh_.dof_handler,
       [&](const CellPart::Cell &cell) -> std_cxx17::optional<Message> {
         if (!parts_.is_cut(cell))
           return {};
@@ -258,7 +253,8 @@ namespace Nacre
         masters.insert(masters.end(), node.begin(), node.end());
     IndexSet all(n_dofs_);
     for (auto &of_rank :
-         Utilities::MPI::all_gather(dof_handler_.get_communicator(), masters))
+         Utilities::MPI::all_gather(mesh_.dof_handler.get_communicator(),
+                                    masters))
       {
         std::sort(of_rank.begin(), of_rank.end());
         all.add_indices(of_rank.begin(), of_rank.end());

@@ -56,28 +56,23 @@ namespace Nacre
     }
   };
 
-  PartNumbering::PartNumbering(
-    const DoFHandler<dim, spacedim>              &dof_handler,
-    const std::vector<std::vector<unsigned int>> &face_nodes,
-    const std::vector<unsigned int>              &node_dofs,
-    CellParts                                    &parts,
-    const unsigned int                            n_functions,
-    const SplitNodes                             &split_nodes)
-    : dof_handler_(dof_handler)
-    , face_nodes_(face_nodes)
-    , node_dofs_(node_dofs)
-    , n_nodes_(node_dofs.size() / spacedim)
-    , old_starts_(starts_of_ranks(dof_handler.n_locally_owned_dofs(),
-                                  dof_handler.get_communicator()))
+  PartNumbering::PartNumbering(const MeshNodes   &mesh,
+                               CellParts         &parts,
+                               const unsigned int n_functions,
+                               const SplitNodes  &split_nodes)
+    : mesh_(mesh)
+    , n_nodes_(mesh.node_dofs.size() / spacedim)
+    , old_starts_(starts_of_ranks(mesh.dof_handler.n_locally_owned_dofs(),
+                                  mesh.dof_handler.get_communicator()))
     , new_starts_(old_starts_)
     , split_nodes_(split_nodes)
     , are_removed_(parts.are_removed())
   {
     if (parts.is_empty())
       {
-        locally_owned_dofs_ = dof_handler.locally_owned_dofs();
+        locally_owned_dofs_ = mesh.dof_handler.locally_owned_dofs();
         locally_relevant_dofs_ =
-          DoFTools::extract_locally_relevant_dofs(dof_handler);
+          DoFTools::extract_locally_relevant_dofs(mesh.dof_handler);
         return;
       }
     auto copies = find_copies(parts);
@@ -168,8 +163,8 @@ namespace Nacre
             {
               const auto &[mine, other] = piece.sides;
               const auto there          = nodes.place_of(other.part.cell);
-              for (const unsigned int a : face_nodes_[mine.face])
-                for (const unsigned int b : face_nodes_[other.face])
+              for (const unsigned int a : mesh_.face_nodes[mine.face])
+                for (const unsigned int b : mesh_.face_nodes[other.face])
                   if (nodes.first_dof(k, a) == nodes.first_dof(there, b) &&
                       !split_nodes_.contains(piece, nodes.first_dof(k, a)))
                     nodes.joined.join(
@@ -188,7 +183,7 @@ namespace Nacre
       if (!parts.is_cut(nodes.cells[k]))
         for (const auto face : nodes.cells[k]->face_indices())
           if (!parts.has_pieces(nodes.cells[k], face))
-            for (const unsigned int a : face_nodes_[face])
+            for (const unsigned int a : mesh_.face_nodes[face])
               {
                 if (split_nodes_.contains(nodes.cells[k]->id(),
                                           face,
@@ -209,7 +204,7 @@ namespace Nacre
   std::map<types::global_dof_index, std::vector<PartNumbering::Copy>>
   PartNumbering::find_copies(const CellParts &parts) const
   {
-    Nodes nodes(parts, node_dofs_);
+    Nodes nodes(parts, mesh_.node_dofs);
     join_across_pieces(parts, nodes);
     join_across_edges(parts, nodes);
 
@@ -273,7 +268,7 @@ namespace Nacre
   PartNumbering::number_copies(std::map<Dof, std::vector<Copy>> &copies,
                                const unsigned int                n_functions)
   {
-    const auto communicator = dof_handler_.get_communicator();
+    const auto communicator = mesh_.dof_handler.get_communicator();
     const auto me           = Utilities::MPI::this_mpi_process(communicator);
     // Removed first copies leave no gaps: the others are numbered anew.
     const unsigned int first_new = are_removed_ ? 0 : 1;
@@ -284,12 +279,13 @@ namespace Nacre
         if (list[k].owner == me)
           {
             const PartNode  &member = list[k].members.front();
-            std::vector<Dof> dofs(node_dofs_.size());
+            std::vector<Dof> dofs(mesh_.node_dofs.size());
             member.cell->get_dof_indices(dofs);
             for (unsigned int c = 0; c < spacedim; ++c)
-              extra[{k, dofs[node_dofs_[spacedim * member.node + c]]}] = 0;
+              extra[{k, dofs[mesh_.node_dofs[spacedim * member.node + c]]}] = 0;
           }
-    const Dof n_base = are_removed_ ? 0 : dof_handler_.n_locally_owned_dofs();
+    const Dof n_base =
+      are_removed_ ? 0 : mesh_.dof_handler.n_locally_owned_dofs();
     new_starts_ =
       starts_of_ranks(n_base + extra.size() + n_functions, communicator);
     Dof next = new_starts_[me] + n_base;
@@ -301,11 +297,12 @@ namespace Nacre
         if (list[k].owner == me)
           {
             const PartNode  &member = list[k].members.front();
-            std::vector<Dof> dofs(node_dofs_.size());
+            std::vector<Dof> dofs(mesh_.node_dofs.size());
             member.cell->get_dof_indices(dofs);
             for (unsigned int c = 0; c < spacedim; ++c)
               {
-                const Dof base = dofs[node_dofs_[spacedim * member.node + c]];
+                const Dof base =
+                  dofs[mesh_.node_dofs[spacedim * member.node + c]];
                 list[k].dofs.push_back(k < first_new ? number_of(base) :
                                                        extra.at({k, base}));
               }
@@ -319,15 +316,15 @@ namespace Nacre
     for (const auto &cell : parts.touched_cells())
       for (auto &part : parts.parts(cell))
         {
-          part.dofs.resize(node_dofs_.size());
+          part.dofs.resize(mesh_.node_dofs.size());
           cell->get_dof_indices(part.dofs);
           for (unsigned int a = 0; a < n_nodes_; ++a)
             {
               const bool has_copies =
-                copies.count(part.dofs[node_dofs_[spacedim * a]]) > 0;
+                copies.count(part.dofs[mesh_.node_dofs[spacedim * a]]) > 0;
               for (unsigned int c = 0; c < spacedim; ++c)
                 {
-                  Dof &dof = part.dofs[node_dofs_[spacedim * a + c]];
+                  Dof &dof = part.dofs[mesh_.node_dofs[spacedim * a + c]];
                   dof =
                     has_copies ? numbers::invalid_dof_index : number_of(dof);
                 }
@@ -337,7 +334,7 @@ namespace Nacre
       for (const auto &member : copy.members)
         for (unsigned int c = 0; c < spacedim; ++c)
           parts.parts(member.cell)[member.part]
-            .dofs[node_dofs_[spacedim * member.node + c]] = copy.dofs[c];
+            .dofs[mesh_.node_dofs[spacedim * member.node + c]] = copy.dofs[c];
     };
     const auto is_mine = [](const Copy &copy) {
       return std::any_of(copy.members.begin(),
@@ -360,11 +357,11 @@ namespace Nacre
             {
               const auto &dofs = parts.parts(member.cell)[member.part].dofs;
               if (copy.dofs.empty() &&
-                  dofs[node_dofs_[spacedim * member.node]] !=
+                  dofs[mesh_.node_dofs[spacedim * member.node]] !=
                     numbers::invalid_dof_index)
                 for (unsigned int c = 0; c < spacedim; ++c)
                   copy.dofs.push_back(
-                    dofs[node_dofs_[spacedim * member.node + c]]);
+                    dofs[mesh_.node_dofs[spacedim * member.node + c]]);
             }
           Assert(!copy.dofs.empty(), ExcInternalError());
           fill(copy);
@@ -376,11 +373,12 @@ namespace Nacre
   void
   PartNumbering::exchange(CellParts &parts) const
   {
-    if (Utilities::MPI::n_mpi_processes(dof_handler_.get_communicator()) == 1)
+    if (Utilities::MPI::n_mpi_processes(mesh_.dof_handler.get_communicator()) ==
+        1)
       return;
     using Message = std::vector<std::vector<Dof>>;
     GridTools::exchange_cell_data_to_ghosts<Message>(
-      dof_handler_,
+      mesh_.dof_handler,
       [&](const CellPart::Cell &cell) -> std_cxx17::optional<Message> {
         Message message;
         if (!parts.is_touched(cell))
@@ -407,11 +405,11 @@ namespace Nacre
   PartNumbering::make_index_sets(const CellParts &parts)
   {
     const auto me =
-      Utilities::MPI::this_mpi_process(dof_handler_.get_communicator());
+      Utilities::MPI::this_mpi_process(mesh_.dof_handler.get_communicator());
     locally_owned_dofs_.set_size(n_dofs());
     locally_owned_dofs_.add_range(new_starts_[me], new_starts_[me + 1]);
-    std::vector<Dof> dofs(node_dofs_.size()), all;
-    for (const auto &cell : dof_handler_.active_cell_iterators())
+    std::vector<Dof> dofs(mesh_.node_dofs.size()), all;
+    for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
       {
         if (cell->is_artificial())
           continue;

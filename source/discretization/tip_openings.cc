@@ -135,31 +135,23 @@ namespace Nacre
     };
   } // namespace
 
-  TipOpenings::TipOpenings(
-    const DoFHandler<dim, spacedim>              &dof_handler,
-    const FiniteElement<dim, spacedim>           &scalar_fe,
-    const std::vector<std::vector<unsigned int>> &face_nodes,
-    const std::vector<unsigned int>              &node_dofs,
-    const Cuts                                   &cuts,
-    const std::vector<CutTrace::Tip>             &tips,
-    const Positions                              &positions,
-    const CellParts                              &parts)
-    : TipDofs(dof_handler.get_communicator(), tips.size())
-    , dof_handler_(dof_handler)
-    , scalar_fe_(scalar_fe)
-    , face_nodes_(face_nodes)
-    , node_dofs_(node_dofs)
+  TipOpenings::TipOpenings(const MeshNodes                  &mesh,
+                           const Cuts                       &cuts,
+                           const std::vector<CutTrace::Tip> &tips,
+                           const CellParts                  &parts)
+    : TipDofs(mesh.dof_handler.get_communicator(), tips.size())
+    , mesh_(mesh)
     , tips_(tips)
-    , positions_(positions)
     , parts_(parts)
     , openings_(tips.size())
   {
-    AssertThrow(scalar_fe.reference_cell() == ReferenceCells::Quadrilateral,
+    AssertThrow(mesh.scalar_fe.reference_cell() ==
+                  ReferenceCells::Quadrilateral,
                 ExcMessage("Cuts/Tips: harmonic functions are those of "
                            "quadrilaterals; choose 'closed' or 'branch "
                            "functions' for triangles."));
     run_on_all_ranks(communicator_, [&]() {
-      for (const auto &cell : dof_handler_.active_cell_iterators())
+      for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
             {
@@ -176,7 +168,7 @@ namespace Nacre
     share();
     // The edges of ghosts are those of this rank's cells, too.
     run_on_all_ranks(communicator_, [&]() {
-      for (const auto &cell : dof_handler_.active_cell_iterators())
+      for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           if (cell->is_ghost() && openings_[t].is_open &&
               cell->id() == tips_[t].cell)
@@ -197,8 +189,8 @@ namespace Nacre
         return false;
     if (!find_edge(t, cell, entry) && !find_vertex(t, cell, entry))
       return false;
-    const auto nodes = positions_(parts_.part(cell));
-    const auto x     = surface_at(scalar_fe_, nodes, tips_[t].unit);
+    const auto nodes = mesh_.positions(parts_.part(cell));
+    const auto x     = surface_at(mesh_.scalar_fe, nodes, tips_[t].unit);
     const auto back  = backward_from_tip(tip_frame(tips_[t], x), x);
     const auto d     = entry.place - tips_[t].unit;
     return d * back > 0. && std::abs(d[0] * back[1] - d[1] * back[0]) <
@@ -230,9 +222,9 @@ namespace Nacre
           PlaneGeometry::snap_distance)
       return false;
     entry.place = point_on_face(entry.face, crossing);
-    for (const unsigned int a : face_nodes_[entry.face])
+    for (const unsigned int a : mesh_.face_nodes[entry.face])
       {
-        const auto  &x     = scalar_fe_.unit_support_point(a);
+        const auto  &x     = mesh_.scalar_fe.unit_support_point(a);
         const bool   here  = x[1 - entry.face / 2] < crossing;
         const auto  &other = pieces[here ? 1 : 0].sides;
         const double s = 0.5 * (other[0].interval[0] + other[0].interval[1]);
@@ -253,8 +245,8 @@ namespace Nacre
       if (!cell->at_boundary(face) && parts_.has_pieces(cell, face) &&
           parts_.pieces_between(cell, face).size() != 1)
         return false;
-    const auto nodes = positions_(parts_.part(cell));
-    const auto x     = surface_at(scalar_fe_, nodes, tips_[t].unit);
+    const auto nodes = mesh_.positions(parts_.part(cell));
+    const auto x     = surface_at(mesh_.scalar_fe, nodes, tips_[t].unit);
     const auto back  = backward_from_tip(tip_frame(tips_[t], x), x);
     double     best  = -1.;
     for (unsigned int v = 0; v < 4; ++v)
@@ -304,17 +296,17 @@ namespace Nacre
   TipOpenings::fit(const unsigned int t, const Cuts &cuts, const Cell &cell)
   {
     const Entry &entry = openings_[t].entry;
-    const auto   nodes = positions_(parts_.part(cell));
+    const auto   nodes = mesh_.positions(parts_.part(cell));
     const auto   frame =
-      tip_frame(tips_[t], surface_at(scalar_fe_, nodes, tips_[t].unit));
+      tip_frame(tips_[t], surface_at(mesh_.scalar_fe, nodes, tips_[t].unit));
     const auto side_value = [&](const unsigned int face, const double s) {
       return is_left(t, entry.place, point_on_face(face, s)) ? 1. : 0.;
     };
-    JumpEdges  edges(scalar_fe_, nodes, frame, cell->diameter());
+    JumpEdges  edges(mesh_.scalar_fe, nodes, frame, cell->diameter());
     const auto adjacent = adjacent_faces(entry);
     for (unsigned int face = 0; face < 4; ++face)
       {
-        const auto open = nodes_on_face(entry.nodes, face_nodes_[face]);
+        const auto open = nodes_on_face(entry.nodes, mesh_.face_nodes[face]);
         const bool is_adjacent =
           std::find(adjacent.begin(), adjacent.end(), face) != adjacent.end();
         if (face == entry.face)
@@ -368,7 +360,7 @@ namespace Nacre
   TipOpenings::share()
   {
     const auto       me = Utilities::MPI::this_mpi_process(communicator_);
-    std::vector<Dof> dofs(node_dofs_.size());
+    std::vector<Dof> dofs(mesh_.node_dofs.size());
     std::vector<std::vector<double>> mine;
     for (unsigned int t = 0; t < tips_.size(); ++t)
       {
@@ -390,7 +382,7 @@ namespace Nacre
                 static_cast<double>(entry.faces[k]),
                 static_cast<double>(entry.parts[k]),
                 static_cast<double>(
-                  dofs[node_dofs_[spacedim * entry.nodes[k].node]])})
+                  dofs[mesh_.node_dofs[spacedim * entry.nodes[k].node]])})
             mine.back().push_back(number);
       }
     const auto all = Utilities::MPI::all_gather(communicator_, mine);
@@ -461,11 +453,14 @@ namespace Nacre
     share.at_end     = tips_[t].at_end;
     share.tip        = tips_[t].unit;
     share.open_nodes = opening.entry.nodes;
-    share.backward   = backward_from_tip(
-      opening.functions->tip(),
-      surface_at(scalar_fe_, positions_(CellPart(cell, &data)), share.tip));
+    share.backward =
+      backward_from_tip(opening.functions->tip(),
+                        surface_at(mesh_.scalar_fe,
+                                   mesh_.positions(CellPart(cell, &data)),
+                                   share.tip));
 
-    std::vector<Dof> dofs(node_dofs_.size()), behind(node_dofs_.size());
+    std::vector<Dof> dofs(mesh_.node_dofs.size()),
+      behind(mesh_.node_dofs.size());
     cell->get_dof_indices(dofs);
     opening.copies.clear();
     const Entry &entry = opening.entry;
@@ -477,13 +472,13 @@ namespace Nacre
         const PartData    &other    = parts.parts(neighbor)[entry.parts[k]];
         neighbor->get_dof_indices(behind);
         std::array<std::array<Dof, spacedim>, 2> copies;
-        for (unsigned int b = 0; b < node_dofs_.size() / spacedim; ++b)
-          if (behind[node_dofs_[spacedim * b]] ==
-              dofs[node_dofs_[spacedim * a]])
+        for (unsigned int b = 0; b < mesh_.node_dofs.size() / spacedim; ++b)
+          if (behind[mesh_.node_dofs[spacedim * b]] ==
+              dofs[mesh_.node_dofs[spacedim * a]])
             for (unsigned int c = 0; c < spacedim; ++c)
               {
-                copies[0][c] = data.dofs[node_dofs_[spacedim * a + c]];
-                copies[1][c] = other.dofs[node_dofs_[spacedim * b + c]];
+                copies[0][c] = data.dofs[mesh_.node_dofs[spacedim * a + c]];
+                copies[1][c] = other.dofs[mesh_.node_dofs[spacedim * b + c]];
               }
         opening.copies.push_back(copies);
       }

@@ -27,20 +27,14 @@ namespace Nacre
     }
   } // namespace
 
-  TipPatches::TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
-                         const FiniteElement<dim, spacedim> &scalar_fe,
-                         const std::vector<unsigned int>    &node_dofs,
-                         const Cuts                         &cuts,
-                         const std::vector<CutTrace::Tip>   &tips,
-                         const std::vector<CutTrace::Line>  &lines,
-                         const Positions                    &positions,
-                         CellParts                          &parts)
-    : TipDofs(dof_handler.get_communicator(), tips.size())
-    , dof_handler_(dof_handler)
-    , scalar_fe_(scalar_fe)
-    , node_dofs_(node_dofs)
+  TipPatches::TipPatches(const MeshNodes                   &mesh,
+                         const Cuts                        &cuts,
+                         const std::vector<CutTrace::Tip>  &tips,
+                         const std::vector<CutTrace::Line> &lines,
+                         CellParts                         &parts)
+    : TipDofs(mesh.dof_handler.get_communicator(), tips.size())
+    , mesh_(mesh)
     , tips_(tips)
-    , positions_(positions)
     , patches_(tips.size())
   {
     run_on_all_ranks(communicator_, [&]() { find_frames(cuts); });
@@ -61,7 +55,7 @@ namespace Nacre
         make_path(lines, cuts.tip_radius + 8. * patch.size, t);
       }
     check_bends(cuts);
-    for (const auto &cell : dof_handler_.active_cell_iterators())
+    for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const Patch &patch : patches_)
           if (is_in(patch, cell))
@@ -72,16 +66,17 @@ namespace Nacre
   TipPatches::find_frames(const Cuts &cuts)
   {
     const unsigned int me = Utilities::MPI::this_mpi_process(communicator_);
-    for (const auto &cell : dof_handler_.active_cell_iterators())
+    for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
       for (unsigned int t = 0; t < tips_.size(); ++t)
         if (cell->is_locally_owned() && cell->id() == tips_[t].cell)
           {
-            Patch     &patch   = patches_[t];
-            const auto nodes   = positions_(CellPart(cell));
-            const auto surface = surface_at(scalar_fe_, nodes, tips_[t].unit);
-            ranges_[t].owner   = me;
-            patch.size         = cell->diameter();
-            patch.frame        = tip_frame(tips_[t], surface);
+            Patch     &patch = patches_[t];
+            const auto nodes = mesh_.positions(CellPart(cell));
+            const auto surface =
+              surface_at(mesh_.scalar_fe, nodes, tips_[t].unit);
+            ranges_[t].owner = me;
+            patch.size       = cell->diameter();
+            patch.frame      = tip_frame(tips_[t], surface);
             patch.poissons_ratio =
               cuts.poissons_ratio(SectionPoint(tips_[t].position,
                                                cell->material_id()),
@@ -131,13 +126,13 @@ namespace Nacre
     for (Patch &patch : patches_)
       {
         patch.tip_vertices = joined_sets(patch.tip_vertices, communicator_);
-        for (const auto &cell : dof_handler_.active_cell_iterators())
+        for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
               const auto is_one = vertices_in(patch.tip_vertices, cell);
               const bool touches =
                 std::find(is_one.begin(), is_one.end(), true) != is_one.end();
-              const auto nodes = positions_(CellPart(cell));
+              const auto nodes = mesh_.positions(CellPart(cell));
               // The first nodes of a cell are those of its vertices.
               for (const auto v : cell->vertex_indices())
                 if (touches || nodes[v].distance(patch.frame.position) < radius)
@@ -178,16 +173,16 @@ namespace Nacre
     // How far the cut may leave the tip's line, in diameters of the cell.
     constexpr double straight = 0.02;
     run_on_all_ranks(communicator_, [&]() {
-      for (const auto &cell : dof_handler_.active_cell_iterators())
+      for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
         for (unsigned int t = 0; t < tips_.size(); ++t)
           {
             if (!cell->is_locally_owned() || cell->id() != tips_[t].cell)
               continue;
             const Patch &patch = patches_[t];
-            const auto   nodes = positions_(CellPart(cell));
+            const auto   nodes = mesh_.positions(CellPart(cell));
             for (const auto &x : patch.path)
               {
-                const auto unit = continued_point(scalar_fe_, nodes, x);
+                const auto unit = continued_point(mesh_.scalar_fe, nodes, x);
                 if (!cell->reference_cell().contains_point(unit, 1e-8))
                   break;
                 AssertThrow(
@@ -205,7 +200,7 @@ namespace Nacre
   TipPatches::check(const Cuts &cuts) const
   {
     run_on_all_ranks(communicator_, [&]() {
-      for (const auto &cell : dof_handler_.active_cell_iterators())
+      for (const auto &cell : mesh_.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
           for (unsigned int t = 0; t < tips_.size(); ++t)
             {
@@ -239,8 +234,8 @@ namespace Nacre
     // Nearer cells are those that hold the crack's end, whatever they are.
     const Patch &patch = patches_[t];
     const auto   x =
-      surface_at(scalar_fe_,
-                 positions_(CellPart(cell)),
+      surface_at(mesh_.scalar_fe,
+                 mesh_.positions(CellPart(cell)),
                  cell->reference_cell().template barycenter<dim>());
     if (Point<spacedim>(x.value).distance(patch.frame.position) <
         2. * patch.size)
@@ -298,7 +293,7 @@ namespace Nacre
     const Patch          &patch = patches_[t];
     const Point<dim>      unit  = part.inner_point();
     const Point<spacedim> x(
-      surface_at(scalar_fe_, positions_(part), unit).value);
+      surface_at(mesh_.scalar_fe, mesh_.positions(part), unit).value);
     if (!is_cut && (x - patch.frame.position) * patch.frame.axes[0] > 0.)
       return 0;
     double nearest = std::numeric_limits<double>::max();
@@ -334,9 +329,11 @@ namespace Nacre
               {
                 const CellPart part = parts.part(cell, i);
                 const int      side = side_of(t, part, parts.is_cut(cell));
-                for (unsigned int a = 0; a < scalar_fe_.n_dofs_per_cell(); ++a)
-                  mine.emplace_back(part.data->dofs[node_dofs_[spacedim * a]],
-                                    side + 1);
+                for (unsigned int a = 0; a < mesh_.scalar_fe.n_dofs_per_cell();
+                     ++a)
+                  mine.emplace_back(
+                    part.data->dofs[mesh_.node_dofs[spacedim * a]],
+                    side + 1);
               }
         // A node on both sides, where the crack closes, has no sheet.
         std::map<Dof, std::set<unsigned int>> found;
@@ -359,16 +356,16 @@ namespace Nacre
                          const bool         is_cut) const
   {
     const Patch          &patch = patches_[t];
-    const auto            nodes = positions_(part);
+    const auto            nodes = mesh_.positions(part);
     PartEnrichment::Share share;
-    share.functions   = patch.functions;
-    share.holds_tip   = holds_tip(tips_[t], part);
-    share.side        = side_of(t, part, is_cut);
-    share.cut         = tips_[t].cut;
-    share.at_end      = tips_[t].at_end;
-    share.tip         = part.cell->id() == tips_[t].cell ?
-                          tips_[t].unit :
-                          continued_point(scalar_fe_, nodes, tips_[t].position);
+    share.functions = patch.functions;
+    share.holds_tip = holds_tip(tips_[t], part);
+    share.side      = side_of(t, part, is_cut);
+    share.cut       = tips_[t].cut;
+    share.at_end    = tips_[t].at_end;
+    share.tip       = tips_[t].unit;
+    if (part.cell->id() != tips_[t].cell)
+      share.tip = continued_point(mesh_.scalar_fe, nodes, tips_[t].position);
     const auto at_tip = vertices_in(patch.tip_vertices, part.cell);
     share.is_near =
       std::find(at_tip.begin(), at_tip.end(), true) != at_tip.end();
@@ -385,11 +382,11 @@ namespace Nacre
     if (share.holds_tip)
       share.backward =
         backward_from_tip(patch.frame,
-                          surface_at(scalar_fe_, nodes, share.tip));
+                          surface_at(mesh_.scalar_fe, nodes, share.tip));
     for (unsigned int a = 0; a < nodes.size(); ++a)
       share.at_nodes.push_back(patch.functions->values(
         nodes[a],
-        patch.side_of_node.at(part.data->dofs[node_dofs_[spacedim * a]])));
+        patch.side_of_node.at(part.data->dofs[mesh_.node_dofs[spacedim * a]])));
     return share;
   }
 

@@ -76,49 +76,47 @@ namespace Nacre
     return change_with_advance(work, length);
   }
 
-  double
-  held_work(const SectionLaw        &section,
-            const CrackTip          &tip,
-            const SurfacePatch      &surface,
-            const SurfaceFrame<>    &frame,
-            const VectorDerivatives &X,
-            const VectorDerivatives &u,
-            const CrackExtension    &extension)
+  Voigt<>
+  PointAtCrack::membrane_force(const std::array<Vector3, 2> &x) const
   {
-    const auto v        = gradient_of_carried(u, extension);
-    const auto in_plane = [&](const std::array<Vector3, 2> &d) {
-      const auto &e_3 = tip.axes[2];
-      return ShellStrain::membrane(frame,
-                                   d[0] - (d[0] * e_3) * e_3,
-                                   d[1] - (d[1] * e_3) * e_3);
-    };
-    const auto A = section.stiffness(frame, surface.position).membrane;
-    return A * ShellStrain::membrane(frame, X.first[0], X.first[1]) *
-             ShellStrain::membrane(frame, v[0], v[1]) -
-           A * in_plane(X.first) * in_plane(v);
+    return section.stiffness(frame, surface.position).membrane *
+           ShellStrain::membrane(frame, x[0], x[1]);
   }
 
   double
-  bent_work(const SectionLaw        &section,
-            const CrackTip          &tip,
-            const SurfacePatch      &surface,
-            const SurfaceFrame<>    &frame,
+  held_work(const PointAtCrack      &point,
+            const VectorDerivatives &X,
+            const VectorDerivatives &u)
+  {
+    const auto v        = gradient_of_carried(u, point.extension);
+    const auto in_plane = [&](const std::array<Vector3, 2> &d) {
+      const auto &e_3 = point.tip.axes[2];
+      return std::array<Vector3, 2>(
+        {{d[0] - (d[0] * e_3) * e_3, d[1] - (d[1] * e_3) * e_3}});
+    };
+    const auto flat = in_plane(v);
+    return point.membrane_force(X.first) *
+             ShellStrain::membrane(point.frame, v[0], v[1]) -
+           point.membrane_force(in_plane(X.first)) *
+             ShellStrain::membrane(point.frame, flat[0], flat[1]);
+  }
+
+  double
+  bent_work(const PointAtCrack      &point,
             const VectorDerivatives &X,
             const VectorDerivatives &w,
-            const Voigt<>           &n,
-            const CrackExtension    &extension)
+            const Voigt<>           &n)
   {
     const auto across = [&](const std::array<Vector3, 2> &x,
                             const std::array<Vector3, 2> &y) {
-      const auto &e_3 = tip.axes[2];
+      const auto &e_3 = point.tip.axes[2];
       return Voigt<>(
         {(e_3 * x[0]) * (e_3 * y[0]),
          (e_3 * x[1]) * (e_3 * y[1]),
          (e_3 * x[0]) * (e_3 * y[1]) + (e_3 * x[1]) * (e_3 * y[0])});
     };
-    const auto A = section.stiffness(frame, surface.position).membrane;
-    return A * ShellStrain::membrane(frame, X.first[0], X.first[1]) *
-             across(w.first, gradient_of_carried(w, extension)) -
-           n * across(w.first, gradient_of_carried(X, extension));
+    return point.membrane_force(X.first) *
+             across(w.first, gradient_of_carried(w, point.extension)) -
+           n * across(w.first, gradient_of_carried(X, point.extension));
   }
 } // namespace Nacre

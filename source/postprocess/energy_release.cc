@@ -352,9 +352,8 @@ namespace Nacre
                           const std::vector<WilliamsField> &fields,
                           std::vector<double>              &sums) const
   {
-    const SectionLaw &section = *shell_.model.section;
-    const double      width   = plateau_.outer - plateau_.inner;
-    const double      side = side_of_crack(shell_.discretization, tip_, part);
+    const double width = plateau_.outer - plateau_.inner;
+    const double side  = side_of_crack(shell_.discretization, tip_, part);
     for (unsigned int q = 0; q < points.size(); ++q)
       {
         const auto surface = points.surface(q);
@@ -376,20 +375,23 @@ namespace Nacre
                              load * carried(u, extension) * frame.j0);
         if (fields.empty())
           continue;
-        const auto w = turned_back(rotation_, surface, u);
-        const auto n = is_linear_ ?
-                         Voigt<>() :
-                         MovedPoint(surface, extension, 0.)
+        const auto         w  = turned_back(rotation_, surface, u);
+        const auto         n  = is_linear_ ?
+                                  Voigt<>() :
+                                  MovedPoint(surface, extension, 0.)
                            .response(shell_.section(), is_linear_, w, tying)
                            .membrane_force;
+        const PointAtCrack at = {*shell_.model.section,
+                                 tip_,
+                                 surface,
+                                 frame,
+                                 extension};
         for (unsigned int i = 0; i < fields.size(); ++i)
           {
             const auto X = williams_derivatives(fields[i], tip_, side, surface);
-            double     held =
-              held_work(section, tip_, surface, frame, X, w, extension);
+            double     held = held_work(at, X, w);
             if (!is_linear_)
-              held +=
-                bent_work(section, tip_, surface, frame, X, w, n, extension);
+              held += bent_work(at, X, w, n);
             sums[i + 1] -=
               weight *
               (interaction_change(shell_.section(),

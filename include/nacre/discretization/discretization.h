@@ -358,6 +358,9 @@ namespace Nacre
     TipDofs *
     tip_dofs() const;
 
+    MeshNodes
+    mesh_nodes() const;
+
     /** Number the dofs of all parts. */
     void
     number_dofs(const bool extends_parts = true);

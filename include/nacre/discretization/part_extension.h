@@ -9,7 +9,6 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
-#include <functional>
 #include <vector>
 
 namespace Nacre
@@ -38,15 +37,10 @@ namespace Nacre
   {
   public:
     /** Collective; sets PartData::nodes of parts that have such nodes. */
-    PartExtension(
-      const DoFHandler<dim, spacedim>    &dof_handler,
-      const FiniteElement<dim, spacedim> &scalar_fe,
-      const std::vector<unsigned int>    &node_dofs,
-      const double                        smallest_part,
-      const std::function<std::vector<Point<spacedim>>(const CellPart &)>
-                          &nodes_of_cell,
-      const PartNumbering &numbering,
-      CellParts           &parts);
+    PartExtension(const MeshNodes     &mesh,
+                  const double         smallest_part,
+                  const PartNumbering &numbering,
+                  CellParts           &parts);
 
     /** The dofs that nodes of any rank follow; collective. */
     IndexSet
@@ -109,12 +103,8 @@ namespace Nacre
       return part.fraction >= smallest_part_;
     }
 
-    const DoFHandler<dim, spacedim>    &dof_handler_;
-    const FiniteElement<dim, spacedim> &scalar_fe_;
-    const std::vector<unsigned int>    &node_dofs_;
-    const double                        smallest_part_;
-    const std::function<std::vector<Point<spacedim>>(const CellPart &)>
-                     &nodes_of_cell_;
+    const MeshNodes   mesh_;
+    const double      smallest_part_;
     const Dof         n_dofs_;
     const SplitNodes &split_nodes_;
     CellParts        &parts_;

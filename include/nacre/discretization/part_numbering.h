@@ -5,6 +5,7 @@
 #define nacre_discretization_part_numbering_h
 
 #include <nacre/discretization/cell_parts.h>
+#include <nacre/discretization/mesh_nodes.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -109,18 +110,15 @@ namespace Nacre
   {
   public:
     /**
-     * Without cuts: the numbers of @p dof_handler. With cuts it sets
+     * Without cuts: the numbers of the DoFHandler. With cuts it sets
      * PartData::dofs; collective.
-     * @param node_dofs Discretization::node_dofs()
      * @param n_functions further dofs of this rank, behind those of its nodes
      * @param split_nodes they have copies of their own
      */
-    PartNumbering(const DoFHandler<dim, spacedim>              &dof_handler,
-                  const std::vector<std::vector<unsigned int>> &face_nodes,
-                  const std::vector<unsigned int>              &node_dofs,
-                  CellParts                                    &parts,
-                  const unsigned int                            n_functions = 0,
-                  const SplitNodes &split_nodes = SplitNodes());
+    PartNumbering(const MeshNodes   &mesh,
+                  CellParts         &parts,
+                  const unsigned int n_functions = 0,
+                  const SplitNodes  &split_nodes = SplitNodes());
 
     const SplitNodes &
     split_nodes() const
@@ -220,10 +218,8 @@ namespace Nacre
     void
     make_index_sets(const CellParts &parts);
 
-    const DoFHandler<dim, spacedim>              &dof_handler_;
-    const std::vector<std::vector<unsigned int>> &face_nodes_;
-    const std::vector<unsigned int>              &node_dofs_;
-    unsigned int                                  n_nodes_;
+    const MeshNodes mesh_;
+    unsigned int    n_nodes_;
     /** First dofs of all ranks, and the end: the DoFHandler's and ours. */
     std::vector<Dof> old_starts_;
     std::vector<Dof> new_starts_;

@@ -23,8 +23,6 @@ namespace Nacre
   {
   public:
     using Dof = types::global_dof_index;
-    using Positions =
-      std::function<std::vector<Point<spacedim>>(const CellPart &)>;
 
     virtual ~TipDofs() = default;
 

@@ -5,6 +5,7 @@
 #define nacre_discretization_tip_openings_h
 
 #include <nacre/discretization/cut_trace.h>
+#include <nacre/discretization/mesh_nodes.h>
 #include <nacre/discretization/part_enrichment.h>
 #include <nacre/discretization/part_numbering.h>
 #include <nacre/discretization/tip_dofs.h>
@@ -38,19 +39,11 @@ namespace Nacre
   class TipOpenings : public TipDofs
   {
   public:
-    /**
-     * Collective.
-     * @param face_nodes, node_dofs those of Discretization
-     * @param positions (length) of the nodes of a part
-     */
-    TipOpenings(const DoFHandler<dim, spacedim>              &dof_handler,
-                const FiniteElement<dim, spacedim>           &scalar_fe,
-                const std::vector<std::vector<unsigned int>> &face_nodes,
-                const std::vector<unsigned int>              &node_dofs,
-                const Cuts                                   &cuts,
-                const std::vector<CutTrace::Tip>             &tips,
-                const Positions                              &positions,
-                const CellParts                              &parts);
+    /** Collective. */
+    TipOpenings(const MeshNodes                  &mesh,
+                const Cuts                       &cuts,
+                const std::vector<CutTrace::Tip> &tips,
+                const CellParts                  &parts);
 
     /** Nodes that the last cells don't share with parts behind them. */
     const SplitNodes &
@@ -139,16 +132,12 @@ namespace Nacre
     void
     complete_cell(const unsigned int t, const Cell &cell, CellParts &parts);
 
-    const DoFHandler<dim, spacedim>              &dof_handler_;
-    const FiniteElement<dim, spacedim>           &scalar_fe_;
-    const std::vector<std::vector<unsigned int>> &face_nodes_;
-    const std::vector<unsigned int>              &node_dofs_;
-    const std::vector<CutTrace::Tip>             &tips_;
-    const Positions                               positions_;
-    const CellParts                              &parts_;
-    std::vector<Opening>                          openings_; // by tip
-    SplitNodes                                    split_nodes_;
-    IndexSet                                      masters_;
+    const MeshNodes                   mesh_;
+    const std::vector<CutTrace::Tip> &tips_;
+    const CellParts                  &parts_;
+    std::vector<Opening>              openings_; // by tip
+    SplitNodes                        split_nodes_;
+    IndexSet                          masters_;
   };
 } // namespace Nacre
 

@@ -5,6 +5,7 @@
 #define nacre_discretization_tip_patches_h
 
 #include <nacre/discretization/cut_trace.h>
+#include <nacre/discretization/mesh_nodes.h>
 #include <nacre/discretization/part_enrichment.h>
 #include <nacre/discretization/tip_dofs.h>
 #include <nacre/problem/cuts.h>
@@ -34,16 +35,12 @@ namespace Nacre
      * patch has cells of several sizes, holds the tip's cell of another cut or
      * turns by more than 60 degrees, and if a cut turns in the cell in which it
      * ends.
-     * @param positions (length) of the nodes of a part
      */
-    TipPatches(const DoFHandler<dim, spacedim>    &dof_handler,
-               const FiniteElement<dim, spacedim> &scalar_fe,
-               const std::vector<unsigned int>    &node_dofs,
-               const Cuts                         &cuts,
-               const std::vector<CutTrace::Tip>   &tips,
-               const std::vector<CutTrace::Line>  &lines,
-               const Positions                    &positions,
-               CellParts                          &parts);
+    TipPatches(const MeshNodes                   &mesh,
+               const Cuts                        &cuts,
+               const std::vector<CutTrace::Tip>  &tips,
+               const std::vector<CutTrace::Line> &lines,
+               CellParts                         &parts);
 
     void
     complete(const std::vector<Dof> &ends, CellParts &parts) override;
@@ -138,12 +135,9 @@ namespace Nacre
                const CellPart    &part,
                const bool         is_cut) const;
 
-    const DoFHandler<dim, spacedim>    &dof_handler_;
-    const FiniteElement<dim, spacedim> &scalar_fe_;
-    const std::vector<unsigned int>    &node_dofs_;
-    const std::vector<CutTrace::Tip>   &tips_;
-    const Positions                     positions_;
-    std::vector<Patch>                  patches_; // by tip
+    const MeshNodes                   mesh_;
+    const std::vector<CutTrace::Tip> &tips_;
+    std::vector<Patch>                patches_; // by tip
   };
 } // namespace Nacre
 

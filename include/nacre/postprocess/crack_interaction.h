@@ -42,6 +42,20 @@ namespace Nacre
                      const VectorDerivatives &X,
                      const double             length);
 
+  /** A point of the surface that moves with a tip. */
+  struct PointAtCrack
+  {
+    const SectionLaw     &section;
+    const CrackTip       &tip;
+    const SurfacePatch   &surface;
+    const SurfaceFrame<> &frame;
+    const CrackExtension &extension;
+
+    /** n (force/length) of the linear strains of the displacement x,a. */
+    Voigt<>
+    membrane_force(const std::array<Tensor<1, 3>, 2> &x) const;
+  };
+
   /**
    * A field @p X in equilibrium in the tangent plane of the tip needs loads
    * on a curved surface, which do work as u moves with the tip. Per area
@@ -53,13 +67,9 @@ namespace Nacre
    * The loads that its moments need are smaller by (h/r)^2.
    */
   double
-  held_work(const SectionLaw        &section,
-            const CrackTip          &tip,
-            const SurfacePatch      &surface,
-            const SurfaceFrame<>    &frame,
+  held_work(const PointAtCrack      &point,
             const VectorDerivatives &X,
-            const VectorDerivatives &u,
-            const CrackExtension    &extension);
+            const VectorDerivatives &u);
 
   /**
    * The same of the bending by a displacement @p w in large rotations, seen
@@ -71,14 +81,10 @@ namespace Nacre
    * with d_ab(x, y) = (e_3 . x,a) (e_3 . y,b), made symmetric.
    */
   double
-  bent_work(const SectionLaw        &section,
-            const CrackTip          &tip,
-            const SurfacePatch      &surface,
-            const SurfaceFrame<>    &frame,
+  bent_work(const PointAtCrack      &point,
             const VectorDerivatives &X,
             const VectorDerivatives &w,
-            const Voigt<>           &n,
-            const CrackExtension    &extension);
+            const Voigt<>           &n);
 } // namespace Nacre
 
 #endif
