@@ -27,6 +27,18 @@ namespace Tests
     return a;
   }
 
+  inline Settings
+  with_edges(const std::string &edges)
+  {
+    return {"Boundary conditions/Edges=" + edges};
+  }
+
+  inline Settings
+  with_cells(const std::string &cells)
+  {
+    return {"Mid-surface/Subdivisions=" + cells};
+  }
+
   /** A file of prm/ with some settings, and the modes it must give. */
   struct StudyRow
   {

@@ -15,18 +15,6 @@ with_force(const std::string &force)
   return {"Analysis/Membrane force=" + force};
 }
 
-Settings
-with_edges(const std::string &edges)
-{
-  return {"Boundary conditions/Edges=" + edges};
-}
-
-Settings
-with_cells(const std::string &cells)
-{
-  return {"Mid-surface/Subdivisions=" + cells};
-}
-
 /** k = N b^2/(pi^2 D). */
 void
 check_plates()

@@ -10,18 +10,6 @@
 using namespace Tests;
 
 Settings
-with_edges(const std::string &edges)
-{
-  return {"Boundary conditions/Edges=" + edges};
-}
-
-Settings
-with_cells(const std::string &cells)
-{
-  return {"Mid-surface/Subdivisions=" + cells};
-}
-
-Settings
 with_force(const std::string &force)
 {
   return {"Analysis/Prestress=membrane force",
