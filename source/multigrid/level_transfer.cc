@@ -70,6 +70,52 @@ namespace Nacre
     }
 
 
+    /** Coarse dofs of this rank's parts, expressed by unconstrained ones. */
+    class FreeDofs
+    {
+    public:
+      /** Collective. The arguments must stay alive. */
+      FreeDofs(const Discretization            &coarse,
+               const AffineConstraints<double> &constraints,
+               const std::vector<CoarsePart>   &parts)
+        : known_(coarse.locally_relevant_dofs())
+        , constraints_(constraints)
+      {
+        std::vector<Dof> unknown;
+        for (const CoarsePart &part : parts)
+          for (const Dof j : part.dofs)
+            if (!known_.is_element(j))
+              unknown.push_back(j);
+        std::sort(unknown.begin(), unknown.end());
+        unknown.erase(std::unique(unknown.begin(), unknown.end()),
+                      unknown.end());
+        foreign_lines_ = constrained_lines(unknown, coarse, constraints);
+      }
+
+      /** Add the dof @p j, times @p weight, to @p line. */
+      void
+      add(Line &line, const Dof j, const double weight) const
+      {
+        const Line *entries = nullptr;
+        if (known_.is_element(j))
+          entries = constraints_.get_constraint_entries(j);
+        else if (const auto found = foreign_lines_.find(j);
+                 found != foreign_lines_.end())
+          entries = &found->second;
+        if (entries == nullptr)
+          line.emplace_back(j, weight);
+        else
+          for (const auto &[k, factor] : *entries)
+            line.emplace_back(k, weight * factor);
+      }
+
+    private:
+      const IndexSet                  &known_;
+      const AffineConstraints<double> &constraints_;
+      std::map<Dof, Line>              foreign_lines_;
+    };
+
+
     /** The functions @p fe at @p points: a row for each point. */
     FullMatrix<double>
     shape_values(const FiniteElement<dim, spacedim> &fe,
@@ -145,47 +191,21 @@ namespace Nacre
     , maps_(child_maps(fine.element().reference_cell()))
     , coarse_parts_(find_coarse_parts(fine, coarse))
   {
-    build(fine_constraints, coarse_constraints);
+    store(rows(fine_constraints, coarse_constraints));
   }
 
 
-  void
-  LevelTransfer::build(const AffineConstraints<double> &fine_constraints,
-                       const AffineConstraints<double> &coarse_constraints)
+  std::vector<LevelTransfer::Row>
+  LevelTransfer::rows(const AffineConstraints<double> &fine_constraints,
+                      const AffineConstraints<double> &coarse_constraints) const
   {
-    // Lines of constrained coarse dofs that this rank doesn't know.
-    std::vector<Dof> unknown;
-    for (const CoarsePart &part : coarse_parts_)
-      for (const Dof j : part.dofs)
-        if (!coarse_.locally_relevant_dofs().is_element(j))
-          unknown.push_back(j);
-    std::sort(unknown.begin(), unknown.end());
-    unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
-    const auto foreign_lines =
-      constrained_lines(unknown, coarse_, coarse_constraints);
-    const auto add = [&](Line &line, const Dof j, const double weight) {
-      const Line *entries = nullptr;
-      if (!coarse_.locally_relevant_dofs().is_element(j))
-        {
-          const auto found = foreign_lines.find(j);
-          if (found != foreign_lines.end())
-            entries = &found->second;
-        }
-      else if (coarse_constraints.is_constrained(j))
-        entries = coarse_constraints.get_constraint_entries(j);
-      if (entries == nullptr)
-        line.emplace_back(j, weight);
-      else
-        for (const auto &[k, factor] : *entries)
-          line.emplace_back(k, weight * factor);
-    };
-
-    const auto       &fe    = fine_.scalar_fe();
-    const IndexSet   &owned = fine_.locally_owned_dofs();
-    std::vector<Line> lines(owned.n_elements());
+    const FreeDofs   free_dofs(coarse_, coarse_constraints, coarse_parts_);
+    const auto      &fe    = fine_.scalar_fe();
+    const IndexSet  &owned = fine_.locally_owned_dofs();
+    std::vector<Row> rows(owned.n_elements());
     // Parts of one node may lie in several coarse parts: beside a chord, and
     // ahead of a coarse tip.
-    std::vector<double>             weights(lines.size(), 0.);
+    std::vector<double>             weights(rows.size(), 0.);
     std::vector<Dof>                dofs;
     const auto                     &node_dofs        = fine_.node_dofs();
     const auto                     &coarse_node_dofs = coarse_.node_dofs();
@@ -214,22 +234,28 @@ namespace Nacre
               if (weight <= weights[row])
                 continue;
               weights[row] = weight;
-              lines[row].clear();
+              rows[row].clear();
               for (unsigned int b = 0; b < P.n(); ++b)
                 if (std::abs(P(a, b)) > 1e-13)
-                  add(lines[row],
-                      source.dofs[coarse_node_dofs[spacedim * b + c]],
-                      P(a, b));
-              simplify(lines[row]);
+                  free_dofs.add(rows[row],
+                                source.dofs[coarse_node_dofs[spacedim * b + c]],
+                                P(a, b));
+              simplify(rows[row]);
             }
       }
+    return rows;
+  }
 
+
+  void
+  LevelTransfer::store(const std::vector<Row> &rows)
+  {
     std::vector<Dof> ghosts;
     row_start_.assign(1, 0);
-    for (const Line &line : lines)
+    for (const Row &row : rows)
       {
-        row_start_.push_back(row_start_.back() + line.size());
-        for (const auto &term : line)
+        row_start_.push_back(row_start_.back() + row.size());
+        for (const auto &term : row)
           if (!coarse_.locally_owned_dofs().is_element(term.first))
             ghosts.push_back(term.first);
       }
@@ -241,8 +267,8 @@ namespace Nacre
                           coarse_.communicator());
     columns_.reserve(row_start_.back());
     weights_.reserve(row_start_.back());
-    for (const Line &line : lines)
-      for (const auto &[j, weight] : line)
+    for (const Row &row : rows)
+      for (const auto &[j, weight] : row)
         {
           columns_.push_back(
             coarse_vector_.get_partitioner()->global_to_local(j));

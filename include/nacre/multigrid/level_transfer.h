@@ -9,7 +9,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <memory>
+#include <utility>
 #include <vector>
 
 namespace dealii
@@ -87,9 +87,16 @@ namespace Nacre
     std::vector<NodeValue>
     values_at_coarse_nodes(const TrilinosWrappers::MPI::Vector &fine) const;
 
+    /** A fine dof as a combination of coarse ones. */
+    using Row = std::vector<std::pair<types::global_dof_index, double>>;
+
+    /** Those of P for this rank's fine dofs. Collective. */
+    std::vector<Row>
+    rows(const AffineConstraints<double> &fine_constraints,
+         const AffineConstraints<double> &coarse_constraints) const;
+
     void
-    build(const AffineConstraints<double> &fine_constraints,
-          const AffineConstraints<double> &coarse_constraints);
+    store(const std::vector<Row> &rows);
 
     const Discretization &fine_;
     const Discretization &coarse_;
