@@ -52,29 +52,25 @@ MORE_PLATES = [("centre", .3, 1, 1.1231911, None),
                ("edge", .5, 2, 2.8245794, None)]
 # nu, F in bending: centre, a/W = 0.5, H/W = 1
 POISSON = [(0, 1.137266), (.25, 1.132899), (.3, 1.132315), (.5, 1.130730)]
-# R/h, shell parameter, A_m, A_b, g
+# R/h, shell parameter, A_m, A_b, g: of shallow shells, but for R/h = 100
 CYLINDERS = [(100, .5, 1.056193, .084205, 1.116651),
              (100, 1, 1.197637, .192525, 1.439387),
              (100, 2, 1.611888, .335721, 2.613119),
-             (1000, .5, 1.056420, .086446, 1.117085),
-             (1000, 1, 1.198208, .194406, 1.440658),
-             (1000, 2, 1.613426, .337019, 2.617783)]
-MORE_CYLINDERS = [(100, 4, 2.582478, .314864, 6.683788),
-                  (1000, 4, 2.587216, .316428, 6.707465),
-                  (10000, .5, 1.056440, .086668, 1.117128),
-                  (10000, 1, 1.198263, .194580, 1.440783),
-                  (10000, 2, 1.613576, .337111, 2.618240),
-                  (10000, 4, 2.587681, .316495, 6.709840)]
-AXIAL_CUTS = [(True, *row) for row in CYLINDERS]
-CIRCUMFERENTIAL_CUTS = [(False, 100, .5, 1.012960, .059984, 1.026427),
-                        (False, 100, 1, 1.050086, .141684, 1.105134),
-                        (False, 1000, .5, 1.012503, .061616, 1.025559),
-                        (False, 1000, 1, 1.048175, .143436, 1.101265),
-                        (False, 1000, 2, 1.165900, .212118, 1.365188),
-                        (False, 10000, .5, 1.012431, .061782, 1.025420),
-                        (False, 10000, 1, 1.047889, .143614, 1.100679),
-                        (False, 10000, 2, 1.165229, .212347, 1.363648),
-                        (False, 10000, 4, 1.458572, .032326, 2.127705)]
+             (100, 4, 2.582478, .314864, 6.683788)] + [
+                 (ratio, *row) for ratio in (1000, 10000) for row in (
+                     (.5, 1.056395, .086589, 1.116956),
+                     (1, 1.198183, .194199, 1.440594),
+                     (2, 1.613317, .335548, 2.617575),
+                     (4, 2.587417, .309868, 6.707337))]
+AROUND = [(100, .5, 1.012960, .059984, 1.026427),
+          (100, 1, 1.050086, .141684, 1.105134)] + [
+              (ratio, *row) for ratio in (1000, 10000) for row in (
+                  (.5, 1.012378, .061739, 1.025410),
+                  (1, 1.047806, .143404, 1.100598),
+                  (2, 1.165154, .211506, 1.363457),
+                  (4, 1.458293, .028917, 2.126728))]
+CUTS = ([(True, *row) for row in CYLINDERS] +
+        [(False, *row) for row in AROUND])
 
 # Of a difference of energies. Dead loads: Pi = -U; ends that are held: Pi = U
 LOADS = [("tension", (1, 0), 1), ("bending", (0, 1), 1),
@@ -256,23 +252,23 @@ def around_x(u, v):
     return u, math.sin(v), math.cos(v)
 
 
-def grading(place, n, size, cells, power=3):
+def grading(place, n, size, cells):
     """Lines of n cells from 0 to 1, so many cells before the place; there they
     have the size."""
     at = cells / n
     slope = size * n
-    before = (place - slope * at) / at**power
-    behind = (1 - place - slope * (1 - at)) / (1 - at)**power
+    before = (place - slope * at) / at**3
+    behind = (1 - place - slope * (1 - at)) / (1 - at)**3
     return (f"{place!r} + {slope!r}*(s - {at!r}) + if(s < {at!r}, "
-            f"-{before!r}*({at!r} - s)^{power}, "
-            f"{behind!r}*(s - {at!r})^{power})")
+            f"-{before!r}*({at!r} - s)^3, "
+            f"{behind!r}*(s - {at!r})^3)")
 
 
-def to_middle(n, size, power=3):
+def to_middle(n, size):
     """Lines of n cells from 0 to 1, that in the middle has the size."""
     slope = size * n
     return (f"0.5 + if(s < 0.5, -0.5, 0.5)*({slope!r}*abs(2*s - 1) + "
-            f"{1 - slope!r}*abs(2*s - 1)^{power})")
+            f"{1 - slope!r}*abs(2*s - 1)^3)")
 
 
 def cut_plate(nacre, kind, a, height, load, cells=(24, 20, 51), mesh_a=None,
@@ -396,46 +392,32 @@ def cut_difference(nacre):
              f"{100 * (G / (sign * slope) - 1):+.2f} %")
 
 
-def cut_cylinder(nacre, axial, ratio, shell, cells=None, inside=0, more=None):
-    """A_m, A_b, g of a cylinder under a pressure, or of one that is pulled.
+def cut_cylinder(nacre, axial, ratio, shell, inside=0, more=None):
+    """A_m, A_b, g of a cylinder whose crack's lips are pulled.
 
-    cells: before the tip, behind it and across; inside: the share of its cell
-    by which the cut goes on behind the line of the mesh."""
+    inside: the share of its cell by which the cut goes on behind the line of
+    the mesh."""
     h = 1 / ratio
     a = shell * math.sqrt(h) / (12 * (1 - NU**2))**.25
-    # What a crack around the axis disturbs reaches far along it; long models
-    # of thin shells are singular to working precision with such small cells.
-    far = (min(16 * a, 1.2) if axial else
-           min(64 * a, 1.5 if ratio <= 100 else 0.9))
-    before, behind, across = cells or ((14, 24, 45) if axial else (14, 30, 57))
-    n, size = before + behind, 0.7 * a / before / far
-    power = 3 if axial else 4
+    # What a crack disturbs reaches far along the axis.
+    along, around = "min(400*a, 12)", "min(250*a, pi)"
+    u, v = (along, around) if axial else (around, along)
     settings = {
-        "Constants": f"a = {a!r}, h0 = {h!r}",
-        "Mid-surface/Subdivisions": f"{n}, {across}",
-        "Mid-surface/Grading u":
-            grading(a / far - inside * size, n, size, before, power),
-        "Mid-surface/Grading v": to_middle(across, size / 2, power),
-        "Mid-surface/expression/Position":
-            "u, sin(v), cos(v)" if axial else "-v, sin(u), cos(u)",
-        "Mid-surface/expression/Range u": f"0, {far!r}",
-        "Mid-surface/expression/Range v": f"{-far!r}, {far!r}",
-        "Cuts/Cuts": f"crack: uv ({-far!r}, 0) (a, 0)",
-        "Section/Young's modulus": 1e3, "Section/Poisson's ratio": NU,
+        "Constants":
+            f"h0 = {h!r}, W = 1e3, m = {NU}, n = 54, b = 14, c = 75, "
+            f"a = {a!r}, w = 0.7*a/b, "
+            f"U = {u}, V = {v}, "
+            f"k = n*w/U, l = c*w/(2*V), e = (a - {inside}*w)/U",
+        "Mid-surface/Subdivisions": "54, 75",
+        "Cuts/Tips": "closed",
         "Quantities/Quantities":
             of_cut(f"{.1 * a}, {.5 * a}", ("K_I", "K_M"))}
-    # The uniform state is that of a membrane.
     if axial:
         settings.update({
-            "Loads/Pressure": "h0", "Boundary conditions/Points": "",
-            "Boundary conditions/Edges": "u=0, v=0, v=1: symmetry"})
-    else:
-        settings.update({
-            "Loads/Edge forces": "v=0: h0, 0, 0; v=1: -h0, 0, 0",
-            "Boundary conditions/Edges": "u=0, u=1: symmetry",
-            "Boundary conditions/Points":
-                f"(0.001, {math.sin(far)!r}, {math.cos(far)!r}): x = 0"})
-    found = nacre.run("inclined_cut.prm", None, {**settings, **(more or {})})
+            "Mid-surface/expression/Position": "u, sin(v), cos(v)",
+            "Boundary conditions/Edges":
+                "u=0, v=0, v=1: symmetry; u=1: fixed"})
+    found = nacre.run("cut_cylinder.prm", None, {**settings, **(more or {})})
     root = math.sqrt(math.pi * a)
     return (found["K_I"] / root, 6 * found["K_M"] / (h * h * root),
             found["G"] * 1e3 / (h * math.pi * a))
@@ -453,7 +435,7 @@ def cylinder_table(nacre, cuts, **more):
 
 
 def cut_cylinders(nacre):
-    cylinder_table(nacre, AXIAL_CUTS + CIRCUMFERENTIAL_CUTS)
+    cylinder_table(nacre, CUTS)
 
 
 def off(value):
@@ -539,12 +521,7 @@ def tip_functions(nacre):
             "0.1, 0.45", ("K_I", "K_II")) +
         "; kink = kink angle of crack end radii 0.1, 0.45"}, near)
     print()
-    # Thinner ones around the axis are singular to working precision.
-    more = [(True, *row) for row in MORE_CYLINDERS]
-    cylinder_table(nacre, AXIAL_CUTS + more + CIRCUMFERENTIAL_CUTS[:2],
-                   inside=.5, more=TIPS)
-    print()
-    cylinder_table(nacre, more[:2], cells=(20, 34, 65), inside=.5, more=TIPS)
+    cylinder_table(nacre, CUTS, inside=.5, more=TIPS)
 
 
 TABLES = {table.__name__: table
