@@ -16,6 +16,27 @@
 
 namespace Nacre
 {
+  void
+  PathRun::take_grown_cuts(const std::string &base)
+  {
+    const ProblemRecord now =
+      current_problem(communicator_, problem_.model.midsurface);
+    const GrowthRecord record = Checkpoint(communicator_, base)
+                                  .load_growth([&](const ProblemRecord &then) {
+                                    return forbidden_changes(then, now);
+                                  });
+    growth_.resume(record.state);
+    is_critical_ = record.is_critical;
+  }
+
+  GrowthRecord
+  PathRun::growth_record() const
+  {
+    if (!growth_.is_on())
+      return {};
+    return {growth_.state(), is_critical_, growth_monitor_->n_rows()};
+  }
+
   bool
   PathRun::watches_tips(const PathState &state) const
   {
@@ -78,6 +99,8 @@ namespace Nacre
     while (growth_.is_due(state.time))
       {
         const std::string failure = grow_by_a_step(quantities, state);
+        // A restart tries it again.
+        is_critical_ = !failure.empty();
         // A tip that moves runs on after the next step in time.
         if (!failure.empty() || problem_.path.is_dynamic())
           return failure;

@@ -87,16 +87,14 @@ namespace Nacre
                 ExcMessage("--restart: a path with 'Adaptive "
                            "refinement/Cycles' above 0 has no checkpoints, "
                            "since they don't hold the mesh; begin anew."));
-    AssertThrow(!restart || !growth_.is_on(),
-                ExcMessage("--restart: a path whose cuts grow (Growth/Tips) "
-                           "has no checkpoints, since they don't hold the "
-                           "cuts; begin anew."));
   }
 
   void
   PathRun::check(const Recorder &recorder, const bool restart)
   {
     check_restart(restart);
+    if (restart && growth_.is_on())
+      take_grown_cuts(own_options(recorder).file(""));
     const SteppedShell   stepped(communicator_,
                                problem_,
                                recorder.quantities(),
@@ -107,7 +105,7 @@ namespace Nacre
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
     const std::string base = own_options(recorder).file("");
-    Checkpoint        checkpoint(shell.discretization(), base);
+    Checkpoint        checkpoint(communicator_, base);
     load_state(shell,
                current_problem(communicator_, problem_.model.midsurface),
                base,
@@ -119,6 +117,8 @@ namespace Nacre
   PathRun::run(Recorder &recorder, const bool restart)
   {
     check_restart(restart);
+    if (restart && growth_.is_on())
+      take_grown_cuts(own_options(recorder).file(""));
     CpuTimer timer(communicator_);
     stepped_ = std::make_unique<SteppedShell>(communicator_,
                                               problem_,
@@ -152,10 +152,16 @@ namespace Nacre
   PathRun::PathEnd
   PathRun::follow_path(const int branch, const bool restart, Recorder &recorder)
   {
-    const OutputOptions primary = own_options(recorder);
-    const OutputOptions options = own_options(recorder, branch);
-    // Of the first mesh: where it changes, nothing is saved.
-    Checkpoint  checkpoint(stepped_->shell.discretization(), options.file(""));
+    const OutputOptions     primary = own_options(recorder);
+    const OutputOptions     options = own_options(recorder, branch);
+    PathMonitor::Completion completion;
+    // Where the mesh changes, nothing is saved.
+    if (!adaptive_.is_on())
+      completion = [&](CheckpointData &data) {
+        data.growth = growth_record();
+        data.held   = stepped_->system.held();
+      };
+    Checkpoint  checkpoint(communicator_, options.file(""));
     PathMonitor monitor(communicator_,
                         options,
                         primary.file("_points.csv"),
@@ -163,7 +169,7 @@ namespace Nacre
                         problem_.path,
                         recorder.quantities(),
                         checkpoint,
-                        !adaptive_.is_on() && !growth_.is_on(),
+                        completion,
                         log_);
     if (growth_.is_on())
       growth_monitor_ = std::make_unique<GrowthMonitor>(communicator_,
@@ -215,6 +221,9 @@ namespace Nacre
         // A restart that is refused leaves all files as they were.
         recorder.start_files(true);
         monitor.resume(*data, problem);
+        if (growth_monitor_)
+          growth_monitor_->resume(*data, problem);
+        stepped_->system.hold(data->held);
         stepped_->shell.assembly().section_states().take(
           stepped_->shell.discretization(),
           data->section_states);
@@ -250,10 +259,10 @@ namespace Nacre
     // After a restart points from before are known by their checkpoints only.
     for (unsigned int k = 1; bifurcations_.count(place) == 0; ++k)
       {
-        CheckpointData data;
-        Checkpoint     point(stepped_->shell.discretization(),
-                         PathMonitor::point_file(primary, k));
-        point.load(data, [](const ProblemRecord &) { return std::string(); });
+        Checkpoint point(communicator_, PathMonitor::point_file(primary, k));
+        const CheckpointData data =
+          point.load(stepped_->shell.discretization(),
+                     [](const ProblemRecord &) { return std::string(); });
         bifurcations_.emplace(data.state.n_bifurcations, data.state);
       }
     PathState state = bifurcations_.at(place);
@@ -359,11 +368,9 @@ namespace Nacre
           failure = seeks_critical_state() ?
                       grow_along_curve(quantities, state) :
                       grow(quantities, state);
-        if (!failure.empty())
-          return failure;
         callbacks.observe(state);
-        if (callbacks.ends(state))
-          return "";
+        if (!failure.empty() || callbacks.ends(state))
+          return failure;
       }
   }
 
@@ -454,7 +461,11 @@ namespace Nacre
     const PathParameters &path = problem_.path;
     warn_of_load_factor(*problem_.model.load_factor, record, log_);
     if (restart)
-      return load_restart(path, record, checkpoint, log_);
+      return load_restart(path,
+                          record,
+                          shell.discretization(),
+                          checkpoint,
+                          log_);
     if (!path.start_from.empty())
       return load_start(path, record, shell.discretization(), base, log_);
     return {};

@@ -25,8 +25,8 @@ namespace Nacre
 
   /**
    * A load path or a motion, with files of its own: a row for each step,
-   * fields, checkpoints. A static path, or one whose t is unknown, may refine
-   * its mesh on the way, and cuts may grow; it then has no checkpoints.
+   * fields, checkpoints. Cuts may grow on the way; a static path, or one whose
+   * t is unknown, may refine its mesh, and then has no checkpoints.
    *
    * A curve of equilibria may have several branches, which are paths with files
    * of their own, followed one after the other. The study's table holds the
@@ -65,6 +65,14 @@ namespace Nacre
     /** Refuse a restart of what has no checkpoints. */
     void
     check_restart(const bool restart) const;
+
+    /** Begin with the cuts of the checkpoint @p base. */
+    void
+    take_grown_cuts(const std::string &base);
+
+    /** How far growth has come. */
+    GrowthRecord
+    growth_record() const;
 
     /** The end of a path, and why it failed, or "". */
     struct PathEnd
@@ -214,7 +222,7 @@ namespace Nacre
     double       assembly_seconds_     = 0.; // of the meshes before
     unsigned int n_refinements_        = 0;
     bool         has_warned_of_energy_ = false;
-    /** Whether the state is one from which the next step of growth begins. */
+    /** GrowthRecord::is_critical */
     bool is_critical_ = false;
   };
 } // namespace Nacre
