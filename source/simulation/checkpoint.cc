@@ -11,7 +11,9 @@
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
+#include <boost/serialization/set.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
@@ -43,13 +45,13 @@ namespace Nacre
       return vectors;
     }
 
-    /** What is read first. */
     template <typename Archive>
     void
-    head_of(Archive &archive, CheckpointData &data)
+    head_of(Archive &archive, CheckpointHead &head)
     {
-      GrowthRecord &growth = data.growth;
-      archive &data.problem &growth.state &growth.is_critical &growth.n_rows;
+      GrowthRecord &growth = head.growth;
+      archive &head.problem &growth.state &growth.is_critical &growth.n_rows;
+      archive &head.mesh.n_refinements &head.mesh.refined;
     }
 
     /** All plain numbers, in one order for both directions. */
@@ -333,16 +335,24 @@ namespace Nacre
       }
   }
 
-  GrowthRecord
-  Checkpoint::load_growth(const Judge &judge)
+  CheckpointHead
+  Checkpoint::load_head(const Judge &judge)
   {
     CheckpointData data;
     run_on_all_ranks(communicator_, [&]() {
       unsigned int n_writers = 0;
       read_record(n_writers);
-      read_file(rank_ % n_writers, data, nullptr, judge);
+      // The cells of all ranks.
+      for (unsigned int writer = 0; writer < n_writers; ++writer)
+        {
+          auto before = std::move(data.mesh.refined);
+          read_file(writer, data, nullptr, judge);
+          data.mesh.refined.merge(before);
+          if (data.mesh.n_refinements == 0)
+            break;
+        }
     });
-    return data.growth;
+    return data;
   }
 
   CheckpointData

@@ -16,27 +16,6 @@
 
 namespace Nacre
 {
-  void
-  PathRun::take_grown_cuts(const std::string &base)
-  {
-    const ProblemRecord now =
-      current_problem(communicator_, problem_.model.midsurface);
-    const GrowthRecord record = Checkpoint(communicator_, base)
-                                  .load_growth([&](const ProblemRecord &then) {
-                                    return forbidden_changes(then, now);
-                                  });
-    growth_.resume(record.state);
-    is_critical_ = record.is_critical;
-  }
-
-  GrowthRecord
-  PathRun::growth_record() const
-  {
-    if (!growth_.is_on())
-      return {};
-    return {growth_.state(), is_critical_, growth_monitor_->n_rows()};
-  }
-
   bool
   PathRun::watches_tips(const PathState &state) const
   {

@@ -33,7 +33,7 @@ namespace Nacre
     , quantities_(quantities)
     , checkpoint_(checkpoint)
     , completion_(completion)
-    , checkpoint_steps_(completion ? path.checkpoint_steps : 0)
+    , checkpoint_steps_(path.checkpoint_steps)
     , log_(log)
     , vtu_output_(options.fields)
     , point_output_(options.fields)

@@ -80,27 +80,55 @@ namespace Nacre
 
   PathRun::~PathRun() = default;
 
-  void
-  PathRun::check_restart(const bool restart) const
+  std::unique_ptr<SteppedShell>
+  PathRun::first_shell(const Recorder &recorder, const bool restart)
   {
-    AssertThrow(!restart || !adaptive_.is_on(),
-                ExcMessage("--restart: a path with 'Adaptive "
-                           "refinement/Cycles' above 0 has no checkpoints, "
-                           "since they don't hold the mesh; begin anew."));
+    std::unique_ptr<MeshRecord::Mesh> mesh;
+    if (restart && (growth_.is_on() || adaptive_.is_on()))
+      mesh = take_cuts_and_mesh(own_options(recorder).file(""));
+    return std::make_unique<SteppedShell>(communicator_,
+                                          problem_,
+                                          recorder.quantities(),
+                                          std::move(mesh),
+                                          log_);
+  }
+
+  std::unique_ptr<MeshRecord::Mesh>
+  PathRun::take_cuts_and_mesh(const std::string &base)
+  {
+    const ProblemRecord now =
+      current_problem(communicator_, problem_.model.midsurface);
+    const CheckpointHead head =
+      Checkpoint(communicator_, base).load_head([&](const auto &then) {
+        return forbidden_changes(then, now);
+      });
+    if (growth_.is_on())
+      growth_.resume(head.growth.state);
+    is_critical_   = head.growth.is_critical;
+    n_refinements_ = head.mesh.n_refinements;
+    if (n_refinements_ == 0)
+      return nullptr;
+    auto mesh = create_mesh(communicator_, problem_);
+    head.mesh.refine(*mesh);
+    return mesh;
+  }
+
+  void
+  PathRun::complete(CheckpointData &data) const
+  {
+    if (growth_.is_on())
+      data.growth = {growth_.state(), is_critical_, growth_monitor_->n_rows()};
+    data.mesh.n_refinements = n_refinements_;
+    if (n_refinements_ > 0)
+      data.mesh.take(stepped_->shell.discretization().triangulation());
+    data.held = stepped_->system.held();
   }
 
   void
   PathRun::check(const Recorder &recorder, const bool restart)
   {
-    check_restart(restart);
-    if (restart && growth_.is_on())
-      take_grown_cuts(own_options(recorder).file(""));
-    const SteppedShell   stepped(communicator_,
-                               problem_,
-                               recorder.quantities(),
-                               nullptr,
-                               log_);
-    const DiscreteShell &shell = stepped.shell;
+    const auto           stepped = first_shell(recorder, restart);
+    const DiscreteShell &shell   = stepped->shell;
     growth_.check(shell.discretization());
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
@@ -116,15 +144,8 @@ namespace Nacre
   void
   PathRun::run(Recorder &recorder, const bool restart)
   {
-    check_restart(restart);
-    if (restart && growth_.is_on())
-      take_grown_cuts(own_options(recorder).file(""));
     CpuTimer timer(communicator_);
-    stepped_ = std::make_unique<SteppedShell>(communicator_,
-                                              problem_,
-                                              recorder.quantities(),
-                                              nullptr,
-                                              log_);
+    stepped_ = first_shell(recorder, restart);
     SolveRecord record;
     record.setup = timer.lap();
     record.eta   = stepped_->shell.assembly().penalty().eta();
@@ -152,25 +173,19 @@ namespace Nacre
   PathRun::PathEnd
   PathRun::follow_path(const int branch, const bool restart, Recorder &recorder)
   {
-    const OutputOptions     primary = own_options(recorder);
-    const OutputOptions     options = own_options(recorder, branch);
-    PathMonitor::Completion completion;
-    // Where the mesh changes, nothing is saved.
-    if (!adaptive_.is_on())
-      completion = [&](CheckpointData &data) {
-        data.growth = growth_record();
-        data.held   = stepped_->system.held();
-      };
-    Checkpoint  checkpoint(communicator_, options.file(""));
-    PathMonitor monitor(communicator_,
-                        options,
-                        primary.file("_points.csv"),
-                        branch,
-                        problem_.path,
-                        recorder.quantities(),
-                        checkpoint,
-                        completion,
-                        log_);
+    const OutputOptions primary = own_options(recorder);
+    const OutputOptions options = own_options(recorder, branch);
+    Checkpoint          checkpoint(communicator_, options.file(""));
+    PathMonitor         monitor(
+      communicator_,
+      options,
+      primary.file("_points.csv"),
+      branch,
+      problem_.path,
+      recorder.quantities(),
+      checkpoint,
+      [&](CheckpointData &data) { complete(data); },
+      log_);
     if (growth_.is_on())
       growth_monitor_ = std::make_unique<GrowthMonitor>(communicator_,
                                                         options,

@@ -8,6 +8,7 @@
 #include <nacre/forms/section_states.h>
 #include <nacre/postprocess/vtu_output.h>
 #include <nacre/simulation/crack_growth.h>
+#include <nacre/simulation/mesh_record.h>
 #include <nacre/simulation/problem_record.h>
 
 #include <functional>
@@ -27,13 +28,19 @@ namespace Nacre
     unsigned int n_rows = 0;
   };
 
-  /** What a checkpoint holds. */
-  struct CheckpointData
+  /** What the discretization of a saved state is made of. */
+  struct CheckpointHead
   {
     /** Of the run that saves it. */
     ProblemRecord problem;
     GrowthRecord  growth;
-    PathState     state;
+    MeshRecord    mesh;
+  };
+
+  /** What a checkpoint holds. */
+  struct CheckpointData : CheckpointHead
+  {
+    PathState state;
     /** Of lips that are being released. */
     FadingForce held;
     /** The fields written so far, by their step. */
@@ -48,8 +55,7 @@ namespace Nacre
    * is killed at any moment finds the last complete one. Numbers are kept bit
    * for bit.
    *
-   * The first entries are the layout, the run's ProblemRecord and, since the
-   * discretization depends on the cuts, its GrowthRecord. Then a rank's file
+   * The first entries are the layout and the CheckpointHead. Then a rank's file
    * holds the positions and values of the nodes of its cells, cell by cell
    * under the cell's CellId, which no partition changes: any number of ranks
    * can go on from it. Cells are dealt out along a curve, so that a rank finds
@@ -78,12 +84,11 @@ namespace Nacre
     using Judge = std::function<std::string(const ProblemRecord &)>;
 
     /**
-     * The cuts that @p discretization must have to load(). Throws on all ranks
-     * if there is no checkpoint, or one that @p judge doesn't accept.
-     * Collective.
+     * The head alone, whose cuts and mesh load() needs. Throws on all ranks if
+     * there is no checkpoint, or one that @p judge doesn't accept. Collective.
      */
-    GrowthRecord
-    load_growth(const Judge &judge);
+    CheckpointHead
+    load_head(const Judge &judge);
 
     /**
      * The data on any number of ranks. Throws on all ranks if there is no
@@ -109,7 +114,7 @@ namespace Nacre
 
     /**
      * Read one file; throws ExcMessage.
-     * @param values null: up to the GrowthRecord only
+     * @param values null: the head only
      */
     void
     read_file(const unsigned int writer,

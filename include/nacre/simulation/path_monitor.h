@@ -33,7 +33,7 @@ namespace Nacre
      * @param options with the name of the path's own files
      * @param points_csv the table of the points of all paths
      * @param branch the number of this one; 0: the primary path
-     * @param completion of what is saved; null: nothing may be saved
+     * @param completion of what is saved
      */
     PathMonitor(const MPI_Comm              communicator,
                 const OutputOptions        &options,

@@ -26,7 +26,7 @@ namespace Nacre
   /**
    * A load path or a motion, with files of its own: a row for each step,
    * fields, checkpoints. Cuts may grow on the way; a static path, or one whose
-   * t is unknown, may refine its mesh, and then has no checkpoints.
+   * t is unknown, may refine its mesh.
    *
    * A curve of equilibria may have several branches, which are paths with files
    * of their own, followed one after the other. The study's table holds the
@@ -62,17 +62,23 @@ namespace Nacre
     run(Recorder &recorder, const bool restart) override;
 
   private:
-    /** Refuse a restart of what has no checkpoints. */
-    void
-    check_restart(const bool restart) const;
+    /**
+     * The shell that a path begins with: at a restart with the cuts and the
+     * mesh of the checkpoint. Collective.
+     */
+    std::unique_ptr<SteppedShell>
+    first_shell(const Recorder &recorder, const bool restart);
 
-    /** Begin with the cuts of the checkpoint @p base. */
-    void
-    take_grown_cuts(const std::string &base);
+    /**
+     * Begin with the cuts of the checkpoint @p base; returns its mesh, or null
+     * if that is the problem's. Collective.
+     */
+    std::unique_ptr<MeshRecord::Mesh>
+    take_cuts_and_mesh(const std::string &base);
 
-    /** How far growth has come. */
-    GrowthRecord
-    growth_record() const;
+    /** Add to @p data what is known of the shell of now. */
+    void
+    complete(CheckpointData &data) const;
 
     /** The end of a path, and why it failed, or "". */
     struct PathEnd
