@@ -75,6 +75,7 @@ namespace Nacre
   std::string
   PathRun::grow(const QuantitiesOfInterest &quantities, PathState &state)
   {
+    is_critical_ = false;
     while (growth_.is_due(state.time))
       {
         const std::string failure = grow_by_a_step(quantities, state);

@@ -383,7 +383,9 @@ namespace Nacre
           failure = seeks_critical_state() ?
                       grow_along_curve(quantities, state) :
                       grow(quantities, state);
-        callbacks.observe(state);
+        // A restart tries the step of growth again, and adds the row then.
+        if (failure.empty() || !is_critical_)
+          callbacks.observe(state);
         if (!failure.empty() || callbacks.ends(state))
           return failure;
       }

@@ -80,7 +80,7 @@ CASES = {
     "resumed_motion": (FLYING, {"Mid-surface/Subdivisions": "5, 3",
                                 "Analysis/End time": "0.28"}, 4, on_two_ranks),
     "resumed_curve": (SNAP_BACK, {"Cuts/Cuts": "crack: file crack.txt",
-                                  "Mid-surface/Subdivisions": "7, 7"}, 2,
+                                  "Mid-surface/Subdivisions": "8, 7"}, 2,
                       refused),
     "resumed_metal": (METAL, {"Analysis/End time": "4",
                               "Mid-surface/Subdivisions": "5, 3"}, 3, None),
