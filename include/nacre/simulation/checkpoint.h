@@ -22,7 +22,10 @@ namespace Nacre
   struct GrowthRecord
   {
     GrowthState state;
-    /** Whether a step of growth comes next, and not a step of the path. */
+    /**
+     * Whether a step of growth comes next, and not a step of the path: from an
+     * equilibrium with G = G_c h along arc length, and after one that failed.
+     */
     bool is_critical = false;
     /** Rows of growth's table. */
     unsigned int n_rows = 0;
@@ -74,8 +77,8 @@ namespace Nacre
                const std::string &where = "--restart");
 
     /**
-     * @param discretization of the state
      * Collective; throws on all ranks if a file can't be written.
+     * @param discretization of the state
      */
     void
     save(const Discretization &discretization, const CheckpointData &data);
