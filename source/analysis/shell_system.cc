@@ -84,8 +84,14 @@ namespace Nacre
     Vector force = owned_vector();
     assembly_.residual(with_ghosts(u), actions_, force, &inertia);
     condense(homogeneous_constraints(), force);
-    held_       = {force, actions_.loads.time, duration};
-    held_share_ = held_.share(held_.start);
+    hold({force, actions_.loads.time, duration});
+  }
+
+  void
+  ShellSystem::hold(const FadingForce &held)
+  {
+    held_       = held;
+    held_share_ = held_.share(actions_.loads.time);
   }
 
   ShellSystem::Vector

@@ -5,12 +5,15 @@
 #include <nacre/base/output_file.h>
 #include <nacre/discretization/discretization.h>
 #include <nacre/simulation/checkpoint.h>
+#include <nacre/simulation/growth_archive.h>
 
 #include <deal.II/grid/cell_id.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
+#include <boost/serialization/set.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
@@ -30,13 +33,25 @@ namespace Nacre
     using Vector = TrilinosWrappers::MPI::Vector;
 
     /** The first entry of each file: another layout has another number. */
-    const std::string layout = "nacre checkpoint 7";
+    const std::string layout = "nacre checkpoint 8";
 
-    std::array<Vector *, 3>
+    std::vector<Vector *>
     vectors_of(CheckpointData &data)
     {
-      auto &motion = data.state.motion;
-      return {{&motion.u, &motion.v, &motion.a}};
+      auto                 &motion = data.state.motion;
+      std::vector<Vector *> vectors{&motion.u, &motion.v, &motion.a};
+      if (data.held.duration > 0.)
+        vectors.push_back(&data.held.force);
+      return vectors;
+    }
+
+    template <typename Archive>
+    void
+    head_of(Archive &archive, CheckpointHead &head)
+    {
+      GrowthRecord &growth = head.growth;
+      archive &head.problem &growth.state &growth.is_critical &growth.n_rows;
+      archive &head.mesh.n_refinements &head.mesh.refined;
     }
 
     /** All plain numbers, in one order for both directions. */
@@ -51,8 +66,8 @@ namespace Nacre
         .n_controls &s.controlled;
       EnergyBalance &b = s.balance;
       archive &b.is_kept &b.kinetic &b.strain &b.initial &b.external_work &b
-        .prescribed_work &b.dissipation &b.largest;
-      archive                           &data.written_fields;
+        .prescribed_work &b.dissipation &b.released &b.largest;
+      archive &data.held.start &data.held.duration &data.written_fields;
     }
   } // namespace
 
@@ -102,9 +117,9 @@ namespace Nacre
      */
     template <typename Archive>
     void
-    read(Archive                       &archive,
-         const std::array<Vector *, 3> &vectors,
-         const std::string             &file)
+    read(Archive                     &archive,
+         const std::vector<Vector *> &vectors,
+         const std::string           &file)
     {
       unsigned int                  n_dofs = 0;
       std::vector<unsigned int>     keys, sizes;
@@ -135,7 +150,8 @@ namespace Nacre
           AssertThrow(std::abs(*value - fraction_of(found->second)) <= 1e-6 &&
                         sizes[k] == dofs_.size(),
                       ExcMessage(file + "' is of a shell with other cuts "
-                                        "(Cuts/Cuts, Tips)."));
+                                        "(Cuts/Cuts, Tips), or with cuts that "
+                                        "have grown (Growth/Tips)."));
           ++value;
           for (Vector *const vector : vectors)
             for (const auto dof : dofs_)
@@ -205,11 +221,10 @@ namespace Nacre
   };
 
 
-  Checkpoint::Checkpoint(const Discretization &discretization,
-                         const std::string    &base_name,
-                         const std::string    &where)
-    : discretization_(discretization)
-    , communicator_(discretization.communicator())
+  Checkpoint::Checkpoint(const MPI_Comm     communicator,
+                         const std::string &base_name,
+                         const std::string &where)
+    : communicator_(communicator)
     , base_name_(base_name)
     , where_(where)
     , rank_(Utilities::MPI::this_mpi_process(communicator_))
@@ -224,15 +239,18 @@ namespace Nacre
   }
 
   void
-  Checkpoint::save(const CheckpointData &data)
+  Checkpoint::save(const Discretization &discretization,
+                   const CheckpointData &data)
   {
     slot_ = 1 - slot_;
-    CheckpointData      copy(data);
+    CheckpointData copy(data);
+    if (copy.held.share(copy.state.time) == 0.)
+      copy.held = FadingForce();
     std::vector<Vector> ghosted;
     for (const Vector *const vector : vectors_of(copy))
       {
-        ghosted.emplace_back(discretization_.locally_owned_dofs(),
-                             discretization_.locally_relevant_dofs(),
+        ghosted.emplace_back(discretization.locally_owned_dofs(),
+                             discretization.locally_relevant_dofs(),
                              communicator_);
         ghosted.back() = *vector;
       }
@@ -241,10 +259,11 @@ namespace Nacre
         // An archive writes past the stream, which wouldn't notice a full disk.
         std::ostringstream              content;
         boost::archive::binary_oarchive archive(content);
-        archive &layout                &copy.problem;
+        archive                        &layout;
+        head_of(archive, copy);
         numbers_of(archive, copy);
         archive &copy.section_states;
-        CellValues(discretization_).write(archive, ghosted);
+        CellValues(discretization).write(archive, ghosted);
         out << content.str();
       });
     });
@@ -276,7 +295,7 @@ namespace Nacre
   void
   Checkpoint::read_file(const unsigned int writer,
                         CheckpointData    &data,
-                        CellValues        &values,
+                        CellValues        *values,
                         const Judge       &judge) const
   {
     const std::string file = slot_file(slot_, writer);
@@ -292,19 +311,21 @@ namespace Nacre
                                "' was written by another version of nacre ('" +
                                found_layout + "' instead of '" + layout +
                                "'): go on with that version, or start anew."));
-        archive          &data.problem;
+        head_of(archive, data);
         const std::string complaint = judge(data.problem);
         AssertThrow(complaint.empty(),
                     ExcMessage(where_ + ": the checkpoint '" + base_name_ +
                                ".checkpoint' is of another problem: " +
                                complaint + "."));
+        if (values == nullptr)
+          return;
         numbers_of(archive, data);
         std::vector<SectionStates::Record> states;
         archive                           &states;
         data.section_states.insert(data.section_states.end(),
                                    states.begin(),
                                    states.end());
-        values.read(archive, vectors_of(data), where_ + ": '" + file);
+        values->read(archive, vectors_of(data), where_ + ": '" + file);
       }
     catch (const boost::archive::archive_exception &error)
       {
@@ -314,11 +335,34 @@ namespace Nacre
       }
   }
 
-  void
-  Checkpoint::load(CheckpointData &data, const Judge &judge)
+  CheckpointHead
+  Checkpoint::load_head(const Judge &judge)
   {
-    for (Vector *const vector : vectors_of(data))
-      vector->reinit(discretization_.locally_owned_dofs(), communicator_);
+    CheckpointData data;
+    run_on_all_ranks(communicator_, [&]() {
+      unsigned int n_writers = 0;
+      read_record(n_writers);
+      // The cells of all ranks.
+      for (unsigned int writer = 0; writer < n_writers; ++writer)
+        {
+          auto before = std::move(data.mesh.refined);
+          read_file(writer, data, nullptr, judge);
+          data.mesh.refined.merge(before);
+          if (data.mesh.n_refinements == 0)
+            break;
+        }
+    });
+    return data;
+  }
+
+  CheckpointData
+  Checkpoint::load(const Discretization &discretization, const Judge &judge)
+  {
+    CheckpointData data;
+    auto          &motion = data.state.motion;
+    for (Vector *const vector :
+         {&motion.u, &motion.v, &motion.a, &data.held.force})
+      vector->reinit(discretization.locally_owned_dofs(), communicator_);
     run_on_all_ranks(communicator_, [&]() {
       unsigned int n_writers = 0;
       read_record(n_writers);
@@ -333,14 +377,14 @@ namespace Nacre
                        [place](const unsigned int a, const unsigned int b) {
                          return std::abs(a - place) < std::abs(b - place);
                        });
-      CellValues values(discretization_);
+      CellValues values(discretization);
       for (const unsigned int writer : writers)
         {
           // A rank without cells needs the numbers of the path, too.
           if (values.is_complete() && writer != writers.front() &&
               data.section_states.empty())
             break;
-          read_file(writer, data, values, judge);
+          read_file(writer, data, &values, judge);
         }
       AssertThrow(values.is_complete(),
                   ExcMessage(where_ + ": the checkpoint '" + base_name_ +
@@ -349,6 +393,7 @@ namespace Nacre
     });
     for (Vector *const vector : vectors_of(data))
       vector->compress(VectorOperation::insert);
+    return data;
   }
 
   void

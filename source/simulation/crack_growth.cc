@@ -306,9 +306,7 @@ namespace Nacre
                        const bool            takes_all)
   {
     const Growth &growth = problem_.growth;
-    former_tips_         = tips_;
-    former_curves_       = problem_.model.cuts.curves;
-    former_started_      = n_started_;
+    before_              = state();
     const double least   = (1. - growth.tolerance) * largest_drive();
     ++n_steps_;
     for (GrowingTip &tip : tips_)
@@ -377,13 +375,44 @@ namespace Nacre
     log_.progress() << "growth step " << n_steps_ << ": " << text << std::endl;
   }
 
-  void
-  CrackGrowth::undo()
+  GrowthState
+  CrackGrowth::state() const
   {
-    tips_                      = former_tips_;
-    problem_.model.cuts.curves = former_curves_;
-    n_started_                 = former_started_;
-    --n_steps_;
+    return {problem_.model.cuts.curves, tips_, starts_, n_started_, n_steps_};
+  }
+
+  void
+  CrackGrowth::set_state(const GrowthState &state)
+  {
+    problem_.model.cuts.curves = state.curves;
+    tips_                      = state.tips;
+    starts_                    = state.starts;
+    n_started_                 = state.n_started;
+    n_steps_                   = state.n_steps;
+  }
+
+  void
+  CrackGrowth::resume(const GrowthState &then)
+  {
+    // A file of points may have changed, which no parameter tells.
+    const auto is_same = [](const auto &a, const auto &b) {
+      return a.distance(b) <= 1e-10 * (a.norm() + b.norm());
+    };
+    const auto &curves = problem_.model.cuts.curves;
+    for (unsigned int k = 0; k < curves.size(); ++k)
+      {
+        const auto &now   = curves[k].points;
+        const auto &grown = then.curves.at(k).points;
+        AssertThrow(std::search(grown.begin(),
+                                grown.end(),
+                                now.begin(),
+                                now.end(),
+                                is_same) != grown.end(),
+                    ExcMessage("--restart: the cut '" + curves[k].name +
+                               "' began with other points in the run of the "
+                               "checkpoint (Cuts/Cuts)."));
+      }
+    set_state(then);
   }
 
   namespace

@@ -14,6 +14,15 @@
 
 namespace Nacre
 {
+  std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+  create_mesh(const MPI_Comm communicator, const ShellProblem &problem)
+  {
+    return problem.model.midsurface.create_triangulation(
+      communicator,
+      problem.model.element.reference_cell(),
+      problem.n_refinements);
+  }
+
   namespace
   {
     Discretization
@@ -23,10 +32,7 @@ namespace Nacre
     {
       const ShellModel &model = problem.model;
       if (mesh == nullptr)
-        mesh =
-          model.midsurface.create_triangulation(communicator,
-                                                model.element.reference_cell(),
-                                                problem.n_refinements);
+        mesh = create_mesh(communicator, problem);
       Cuts cuts = model.cuts;
       cuts.poissons_ratio =
         [&](const auto &x, const auto &e_1, const auto &e_2) {

@@ -3,13 +3,13 @@
 
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
-#include <nacre/base/output_file.h>
 #include <nacre/postprocess/cut_quantities.h>
 #include <nacre/simulation/growth_monitor.h>
+#include <nacre/simulation/table_file.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <iomanip>
 #include <set>
 #include <sstream>
@@ -114,45 +114,61 @@ namespace Nacre
   }
 
   void
-  GrowthMonitor::write_rows() const
+  GrowthMonitor::write_row(const Row &row)
   {
-    const auto columns = [](const Row &row) {
-      std::vector<std::string> names;
-      for (const auto &[name, value] : row)
-        names.push_back(name);
-      return names;
-    };
+    std::ostringstream header, text;
+    text << std::setprecision(12);
+    const char *separator = "";
+    for (const auto &[name, value] : row)
+      {
+        header << separator << name;
+        text << separator << value;
+        separator = ",";
+      }
+    if (header.str() == header_)
+      {
+        TableFile::append(text.str(), csv_);
+        return;
+      }
     // Tips are never taken away: the last row has all columns, unless a step
     // is taken back.
-    const auto names = columns(rows_.back());
-    const bool anew =
-      rows_.size() == 1 || columns(rows_[rows_.size() - 2]) != names;
-    std::ostringstream text;
-    text << std::setprecision(12);
-    if (anew)
-      for (std::size_t c = 0; c < names.size(); ++c)
-        text << names[c] << (c + 1 < names.size() ? ',' : '\n');
-    for (std::size_t r = anew ? 0 : rows_.size() - 1; r < rows_.size(); ++r)
-      for (std::size_t c = 0; c < names.size(); ++c)
-        {
-          const auto field =
-            std::find_if(rows_[r].begin(), rows_[r].end(), [&](const auto &x) {
-              return x.first == names[c];
-            });
-          if (field != rows_[r].end())
-            text << field->second;
-          text << (c + 1 < names.size() ? ',' : '\n');
-        }
-    if (anew)
-      write_file(csv_, [&](std::ostream &out) { out << text.str(); });
-    else
-      {
-        std::ofstream out(csv_, std::ios::app);
-        out << text.str() << std::flush;
-        AssertThrow(out,
-                    ExcMessage("Writing '" + csv_ +
-                               "' failed: is the disk full?"));
-      }
+    TableFile table;
+    if (n_rows_ > 0)
+      table = TableFile::read(csv_);
+    table   = table.with_columns(header.str());
+    header_ = table.header;
+    table.rows.push_back(text.str());
+    table.write(csv_);
+  }
+
+  void
+  GrowthMonitor::resume(const CheckpointData &data,
+                        const ProblemRecord  &problem)
+  {
+    const bool goes_on =
+      !has_changed("Quantities/Quantities", data.problem, problem);
+    const unsigned int n_kept = data.growth.n_rows;
+    n_rows_                   = goes_on ? n_kept : 0;
+    n_steps_                  = data.growth.state.n_steps;
+    if (n_kept == 0)
+      return;
+    std::string earlier = csv_;
+    earlier.insert(earlier.size() - std::string(".csv").size(),
+                   "_until_" + std::to_string(data.state.step));
+    run_on_root(communicator_, [&]() {
+      unsigned int    n     = 0;
+      const TableFile table = TableFile::read(csv_, [&](const std::string &) {
+        return n++ < n_kept;
+      });
+      table.write(goes_on ? csv_ : earlier);
+      if (goes_on)
+        header_ = table.header;
+      else
+        std::filesystem::remove(csv_);
+    });
+    if (!goes_on)
+      log_.progress() << "the states of growth up to step " << data.state.step
+                      << " are now in " << earlier << std::endl;
   }
 
   void
@@ -160,7 +176,7 @@ namespace Nacre
                          const double       time,
                          const SolvedShell &shell)
   {
-    rows_.push_back(make_row(growth, time, shell));
+    const Row          row = make_row(growth, time, shell);
     std::ostringstream line;
     line << std::setprecision(6) << "growth step " << growth.n_steps()
          << ", load factor " << shell.instant.factor;
@@ -177,12 +193,12 @@ namespace Nacre
       line << ", away from tips = " << growth.starts()[0].drive << " at ("
            << growth.starts()[0].position << ')';
     const auto &quantities = quantities_.quantities();
-    const auto &row        = rows_.back();
     for (std::size_t k = 0; k < quantities.size(); ++k)
       line << ", " << quantities[k].name << " = "
            << row[row.size() - quantities.size() + k].second;
     log_.progress() << line.str() << std::endl;
-    run_on_root(communicator_, [&]() { write_rows(); });
+    run_on_root(communicator_, [&]() { write_row(row); });
+    ++n_rows_;
     n_steps_ = growth.n_steps();
   }
 

@@ -75,9 +75,12 @@ namespace Nacre
   std::string
   PathRun::grow(const QuantitiesOfInterest &quantities, PathState &state)
   {
+    is_critical_ = false;
     while (growth_.is_due(state.time))
       {
         const std::string failure = grow_by_a_step(quantities, state);
+        // A restart tries it again.
+        is_critical_ = !failure.empty();
         // A tip that moves runs on after the next step in time.
         if (!failure.empty() || problem_.path.is_dynamic())
           return failure;

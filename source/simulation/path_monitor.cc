@@ -3,14 +3,13 @@
 
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
-#include <nacre/base/output_file.h>
 #include <nacre/base/text.h>
 #include <nacre/forms/assembly.h>
 #include <nacre/simulation/path_monitor.h>
+#include <nacre/simulation/table_file.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <sstream>
 
@@ -23,7 +22,7 @@ namespace Nacre
                            const PathParameters       &path,
                            const QuantitiesOfInterest &quantities,
                            Checkpoint                 &checkpoint,
-                           const bool                  saves,
+                           const Completion           &completion,
                            Log                        &log)
     : communicator_(communicator)
     , options_(options)
@@ -33,7 +32,8 @@ namespace Nacre
     , grid_(path.time_grid())
     , quantities_(quantities)
     , checkpoint_(checkpoint)
-    , checkpoint_steps_(saves ? path.checkpoint_steps : 0)
+    , completion_(completion)
+    , checkpoint_steps_(path.checkpoint_steps)
     , log_(log)
     , vtu_output_(options.fields)
     , point_output_(options.fields)
@@ -56,24 +56,6 @@ namespace Nacre
     written_.problem = problem;
   }
 
-  namespace
-  {
-    /** The header of a table and those of its rows that @p keeps. */
-    template <typename Predicate>
-    std::pair<std::string, std::string>
-    read_rows(const std::string &csv, const Predicate &keeps)
-    {
-      std::ifstream      in(csv);
-      std::string        header, line;
-      std::ostringstream rows;
-      std::getline(in, header);
-      while (std::getline(in, line))
-        if (keeps(line))
-          rows << line << '\n';
-      return {header, rows.str()};
-    }
-  } // namespace
-
   std::string
   PathMonitor::point_file(const OutputOptions &options,
                           const unsigned int   number)
@@ -89,7 +71,7 @@ namespace Nacre
       if (!std::filesystem::exists(points_csv_))
         return;
       // Points after the checkpoint will be found again.
-      const auto table = read_rows(points_csv_, [&](const std::string &line) {
+      const auto keeps = [&](const std::string &line) {
         const auto cells  = Text::split(line, ',', points_csv_);
         const bool is_own = !path_.branches.has_several() ||
                             cells.at(0) == std::to_string(branch_);
@@ -103,10 +85,8 @@ namespace Nacre
             records[number] = {std::stod(cells.at(4)),
                                file.filename().string()};
         return true;
-      });
-      write_file(points_csv_, [&](std::ostream &out) {
-        out << table.first << '\n' << table.second;
-      });
+      };
+      TableFile::read(points_csv_, keeps).write(points_csv_);
     });
     // A list of .h5 holds more than their names: it begins anew.
     if (options_.fields.format == FieldFormat::vtu)
@@ -127,22 +107,21 @@ namespace Nacre
       !has_changed("Quantities/Quantities", data.problem, problem);
     run_on_root(communicator_, [&]() {
       // Steps after the checkpoint will be taken again.
-      const auto [header, kept] =
-        read_rows(options_.file("_path.csv"), [&](const std::string &line) {
-          return std::strtoul(line.c_str(), nullptr, 10) <= data.state.step;
-        });
-      const bool goes_on = same_quantities && header == csv_header();
-      if (!goes_on && !kept.empty())
-        {
-          earlier_rows_ = options_.file(
-            "_path_until_" + std::to_string(data.state.step) + ".csv");
-          write_file(earlier_rows_, [&](std::ostream &out) {
-            out << header << '\n' << kept;
-          });
-        }
-      write_file(options_.file("_path.csv"), [&](std::ostream &out) {
-        out << csv_header() << '\n' << (goes_on ? kept : "");
+      const std::string csv = options_.file("_path.csv");
+      TableFile table = TableFile::read(csv, [&](const std::string &line) {
+        return std::strtoul(line.c_str(), nullptr, 10) <= data.state.step;
       });
+      if (!same_quantities || table.header != csv_header())
+        {
+          if (!table.rows.empty())
+            {
+              earlier_rows_ = options_.file(
+                "_path_until_" + std::to_string(data.state.step) + ".csv");
+              table.write(earlier_rows_);
+            }
+          table = {csv_header(), {}};
+        }
+      table.write(csv);
     });
     resume_points(data.state);
     if (!earlier_rows_.empty())
@@ -207,7 +186,9 @@ namespace Nacre
     CheckpointData data;
     data.problem = written_.problem;
     data.state   = point.state;
-    Checkpoint(shell.discretization, point_file(options_, number)).save(data);
+    completion_(data);
+    Checkpoint(communicator_, point_file(options_, number))
+      .save(shell.discretization, data);
   }
 
   void
@@ -234,13 +215,8 @@ namespace Nacre
     log_.progress() << line.str() << std::endl;
     run_on_root(communicator_, [&]() {
       if (!std::filesystem::exists(points_csv_))
-        write_file(points_csv_,
-                   [&](std::ostream &out) { out << header.str() << '\n'; });
-      std::ofstream out(points_csv_, std::ios::app);
-      out << row.str() << '\n' << std::flush;
-      AssertThrow(out,
-                  ExcMessage("Writing '" + points_csv_ +
-                             "' failed: is the disk full?"));
+        TableFile{header.str(), {}}.write(points_csv_);
+      TableFile::append(row.str(), points_csv_);
     });
   }
 
@@ -261,7 +237,8 @@ namespace Nacre
     written_.state = state;
     written_.section_states =
       shell.section_states->records(shell.discretization);
-    checkpoint_.save(written_);
+    completion_(written_);
+    checkpoint_.save(shell.discretization, written_);
     has_saved_ = true;
   }
 
@@ -272,24 +249,15 @@ namespace Nacre
     run_on_root(communicator_, [&]() {
       const std::string  csv = options_.file("_path.csv");
       std::ostringstream text;
-      if (state.step == 0)
-        text << csv_header() << '\n';
       text << std::setprecision(12) << state.step << ',' << state.time << ','
            << state.load_factor << ',' << state.iterations << ','
            << state.residual << ',' << state.n_negative_pivots;
       for (const double value : values)
         text << ',' << value;
-      text << '\n';
       if (state.step == 0)
-        {
-          write_file(csv, [&](std::ostream &out) { out << text.str(); });
-          return;
-        }
-      std::ofstream out(csv, std::ios::app);
-      out << text.str() << std::flush;
-      AssertThrow(out,
-                  ExcMessage("Writing '" + csv +
-                             "' failed: is the disk full?"));
+        TableFile{csv_header(), {text.str()}}.write(csv);
+      else
+        TableFile::append(text.str(), csv);
     });
   }
 

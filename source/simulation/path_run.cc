@@ -80,34 +80,60 @@ namespace Nacre
 
   PathRun::~PathRun() = default;
 
-  void
-  PathRun::check_restart(const bool restart) const
+  std::unique_ptr<SteppedShell>
+  PathRun::first_shell(const Recorder &recorder, const bool restart)
   {
-    AssertThrow(!restart || !adaptive_.is_on(),
-                ExcMessage("--restart: a path with 'Adaptive "
-                           "refinement/Cycles' above 0 has no checkpoints, "
-                           "since they don't hold the mesh; begin anew."));
-    AssertThrow(!restart || !growth_.is_on(),
-                ExcMessage("--restart: a path whose cuts grow (Growth/Tips) "
-                           "has no checkpoints, since they don't hold the "
-                           "cuts; begin anew."));
+    std::unique_ptr<MeshRecord::Mesh> mesh;
+    if (restart && (growth_.is_on() || adaptive_.is_on()))
+      mesh = take_cuts_and_mesh(own_options(recorder).file(""));
+    return std::make_unique<SteppedShell>(communicator_,
+                                          problem_,
+                                          recorder.quantities(),
+                                          std::move(mesh),
+                                          log_);
+  }
+
+  std::unique_ptr<MeshRecord::Mesh>
+  PathRun::take_cuts_and_mesh(const std::string &base)
+  {
+    const ProblemRecord now =
+      current_problem(communicator_, problem_.model.midsurface);
+    const CheckpointHead head =
+      Checkpoint(communicator_, base).load_head([&](const auto &then) {
+        return forbidden_changes(then, now);
+      });
+    if (growth_.is_on())
+      growth_.resume(head.growth.state);
+    is_critical_   = head.growth.is_critical;
+    n_refinements_ = head.mesh.n_refinements;
+    if (n_refinements_ == 0)
+      return nullptr;
+    auto mesh = create_mesh(communicator_, problem_);
+    head.mesh.refine(*mesh);
+    return mesh;
+  }
+
+  void
+  PathRun::complete(CheckpointData &data) const
+  {
+    if (growth_.is_on())
+      data.growth = {growth_.state(), is_critical_, growth_monitor_->n_rows()};
+    data.mesh.n_refinements = n_refinements_;
+    if (n_refinements_ > 0)
+      data.mesh.take(stepped_->shell.discretization().triangulation());
+    data.held = stepped_->system.held();
   }
 
   void
   PathRun::check(const Recorder &recorder, const bool restart)
   {
-    check_restart(restart);
-    const SteppedShell   stepped(communicator_,
-                               problem_,
-                               recorder.quantities(),
-                               nullptr,
-                               log_);
-    const DiscreteShell &shell = stepped.shell;
+    const auto           stepped = first_shell(recorder, restart);
+    const DiscreteShell &shell   = stepped->shell;
     growth_.check(shell.discretization());
     recorder.check_quantities(shell.discretization());
     shell.check_integrands();
     const std::string base = own_options(recorder).file("");
-    Checkpoint        checkpoint(shell.discretization(), base);
+    Checkpoint        checkpoint(communicator_, base);
     load_state(shell,
                current_problem(communicator_, problem_.model.midsurface),
                base,
@@ -118,13 +144,8 @@ namespace Nacre
   void
   PathRun::run(Recorder &recorder, const bool restart)
   {
-    check_restart(restart);
     CpuTimer timer(communicator_);
-    stepped_ = std::make_unique<SteppedShell>(communicator_,
-                                              problem_,
-                                              recorder.quantities(),
-                                              nullptr,
-                                              log_);
+    stepped_ = first_shell(recorder, restart);
     SolveRecord record;
     record.setup = timer.lap();
     record.eta   = stepped_->shell.assembly().penalty().eta();
@@ -154,17 +175,17 @@ namespace Nacre
   {
     const OutputOptions primary = own_options(recorder);
     const OutputOptions options = own_options(recorder, branch);
-    // Of the first mesh: where it changes, nothing is saved.
-    Checkpoint  checkpoint(stepped_->shell.discretization(), options.file(""));
-    PathMonitor monitor(communicator_,
-                        options,
-                        primary.file("_points.csv"),
-                        branch,
-                        problem_.path,
-                        recorder.quantities(),
-                        checkpoint,
-                        !adaptive_.is_on() && !growth_.is_on(),
-                        log_);
+    Checkpoint          checkpoint(communicator_, options.file(""));
+    PathMonitor         monitor(
+      communicator_,
+      options,
+      primary.file("_points.csv"),
+      branch,
+      problem_.path,
+      recorder.quantities(),
+      checkpoint,
+      [&](CheckpointData &data) { complete(data); },
+      log_);
     if (growth_.is_on())
       growth_monitor_ = std::make_unique<GrowthMonitor>(communicator_,
                                                         options,
@@ -215,6 +236,9 @@ namespace Nacre
         // A restart that is refused leaves all files as they were.
         recorder.start_files(true);
         monitor.resume(*data, problem);
+        if (growth_monitor_)
+          growth_monitor_->resume(*data, problem);
+        stepped_->system.hold(data->held);
         stepped_->shell.assembly().section_states().take(
           stepped_->shell.discretization(),
           data->section_states);
@@ -250,10 +274,10 @@ namespace Nacre
     // After a restart points from before are known by their checkpoints only.
     for (unsigned int k = 1; bifurcations_.count(place) == 0; ++k)
       {
-        CheckpointData data;
-        Checkpoint     point(stepped_->shell.discretization(),
-                         PathMonitor::point_file(primary, k));
-        point.load(data, [](const ProblemRecord &) { return std::string(); });
+        Checkpoint point(communicator_, PathMonitor::point_file(primary, k));
+        const CheckpointData data =
+          point.load(stepped_->shell.discretization(),
+                     [](const ProblemRecord &) { return std::string(); });
         bifurcations_.emplace(data.state.n_bifurcations, data.state);
       }
     PathState state = bifurcations_.at(place);
@@ -359,11 +383,11 @@ namespace Nacre
           failure = seeks_critical_state() ?
                       grow_along_curve(quantities, state) :
                       grow(quantities, state);
-        if (!failure.empty())
+        // A restart tries the step of growth again, and adds the row then.
+        if (failure.empty() || !is_critical_)
+          callbacks.observe(state);
+        if (!failure.empty() || callbacks.ends(state))
           return failure;
-        callbacks.observe(state);
-        if (callbacks.ends(state))
-          return "";
       }
   }
 
@@ -454,7 +478,11 @@ namespace Nacre
     const PathParameters &path = problem_.path;
     warn_of_load_factor(*problem_.model.load_factor, record, log_);
     if (restart)
-      return load_restart(path, record, checkpoint, log_);
+      return load_restart(path,
+                          record,
+                          shell.discretization(),
+                          checkpoint,
+                          log_);
     if (!path.start_from.empty())
       return load_start(path, record, shell.discretization(), base, log_);
     return {};

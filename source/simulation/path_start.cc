@@ -12,13 +12,14 @@ namespace Nacre
   CheckpointData
   load_restart(const PathParameters &parameters,
                const ProblemRecord  &problem,
+               const Discretization &discretization,
                Checkpoint           &checkpoint,
                Log                  &log)
   {
-    CheckpointData data;
-    checkpoint.load(data, [&](const ProblemRecord &then) {
-      return forbidden_changes(then, problem);
-    });
+    CheckpointData data =
+      checkpoint.load(discretization, [&](const ProblemRecord &then) {
+        return forbidden_changes(then, problem);
+      });
     PathState &state = data.state;
     if (has_changed("Analysis/Time step", data.problem, problem) ||
         has_changed("Analysis/Control step", data.problem, problem))
@@ -55,13 +56,13 @@ namespace Nacre
                            "' is what this run itself writes; give it another "
                            "name by Study/Name or Study/Output folder, or go "
                            "on with --restart."));
-    CheckpointData data;
-    Checkpoint     checkpoint(discretization, base.string(), where);
-    checkpoint.load(data, [&](const ProblemRecord &then) {
-      return has_changed("Cuts/Cuts", then, problem) ?
-               "its 'Cuts/Cuts' are others" :
-               std::string();
-    });
+    CheckpointData data =
+      Checkpoint(discretization.communicator(), base.string(), where)
+        .load(discretization, [&](const ProblemRecord &then) {
+          return has_changed("Cuts/Cuts", then, problem) ?
+                   "its 'Cuts/Cuts' are others" :
+                   std::string();
+        });
     // Of an arc-length path v is no velocity but the path's tangent.
     const auto type = data.problem.parameters.find("Analysis/Type");
     if (type != data.problem.parameters.end() &&

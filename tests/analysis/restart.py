@@ -201,14 +201,10 @@ def check_change_of_ranks(arguments, folder, element, field_format, changes):
 
 
 def check_refusals(arguments, folder):
-    """Another mesh, and a file that is gone."""
+    """A file that is gone."""
     (folder / "run.prm").write_text(PRM)
     short = ("--set", "Analysis/End time=0.06")
     must_run(arguments, folder, *short, ranks=2)
-    code, text = run(arguments, folder, *short, "--restart", "--set",
-                     "Study/Refinements=1", ranks=2)
-    if code == 0 or "of another problem" not in text:
-        sys.exit(f"a restart on another mesh: code {code}, said {text}")
     slot = (folder / "out" / "run.checkpoint").read_text().split()[0]
     (folder / "out" / f"run.checkpoint.{slot}.0").unlink()
     code, text = run(arguments, folder, *short, "--restart", ranks=2)
@@ -225,7 +221,7 @@ def main():
     if arguments.change_ranks:
         with tempfile.TemporaryDirectory() as name:
             for element, field_format, changes in (
-                    ("Lagrange", "vtu", ((1, 2), (3, 1), (2, 3))),
+                    ("Lagrange", "vtu", ((3, 1), (2, 3))),
                     ("triangle", "hdf5", ((3, 2),))):
                 folder = pathlib.Path(name, element)
                 folder.mkdir()

@@ -98,14 +98,11 @@ case("growth_release_in_statics",
      Release_time="0.1", **{"Analysis/Type": "static"})
 case("growth_negative_release", ["Growth/Release time: '-1' is negative"],
      Release_time="-1", **{"Analysis/Type": "dynamic"})
-case("growth_restart_in_dynamics", ["--restart", "Growth/Tips"],
-     args=("--restart",), **{"Analysis/Type": "dynamic",
-                             "Section/Density": "1"})
-case("growth_restart", ["--restart", "Growth/Tips"], args=("--restart",),
-     **{"Analysis/Type": "static"})
 case("growth_adaptive", ["Adaptive refinement/Cycles", "Growth/Tips"],
      **{"Adaptive refinement/Cycles": "1",
         "Adaptive refinement/Max dofs": "1"})
+case("growth_restart", ["--restart", "no checkpoint"], args=("--restart",),
+     **{"Analysis/Type": "static"})
 case("growth_vector", ["Growth/Direction: at the tip 'slit end'", "surface"],
      args=(), Direction="0, 0, 1")
 case("growth_no_strength", ["Growth/Strength", "needs it"],

@@ -177,8 +177,6 @@ case("adaptive_goal_without_effect",
 case("adaptive_triangles",
      ["Adaptive refinement/Cycles", "triangles", "quadrilaterals"],
      dict(CYCLES, **{"Discretization/Element": "triangle"}))
-case("adaptive_restart", ["--restart", "Adaptive refinement/Cycles"],
-     dict(CYCLES, **{"Analysis/Type": "static"}), args=["--restart"])
 case("adaptive_estimator", ["Estimator", "patch", "residual"],
      dict(CYCLES, **{"Adaptive refinement/Estimator": "patch"}))
 case("adaptive_column", ["Quantities/Quantities", "estimate", "another name"],

@@ -322,16 +322,22 @@ def load_cases(folder):
 
 @test(1)
 def refined(folder):
-    """A path whose mesh is refined passes the same limit points."""
-    text = folder.succeed(ARCH, **dict(COARSE, Study__Refinements="0"),
-                          Adaptive_refinement__Cycles="2",
-                          Adaptive_refinement__Every_steps="2",
-                          Analysis__Maximum_points="2")
+    """A path whose mesh is refined passes the same limit points, also if it is
+    stopped after the first refinement and goes on."""
+    settings = dict(COARSE, Study__Refinements="0",
+                    Adaptive_refinement__Cycles="2",
+                    Adaptive_refinement__Every_steps="2")
+    text = folder.succeed(ARCH, **settings, Analysis__Maximum_points="2")
     check(text.count("refined after step") == 2, text)
     points = folder.rows("case_points.csv")
     check(len(points) == 2, f"points {points}")
     for point, expected in zip(points, (LARGEST, SMALLEST)):
         check_near(point["kind"], point["load_factor"], expected, 1e-3)
+    rows = folder.rows("case_path.csv")
+    folder.succeed(ARCH, **settings, Analysis__Maximum_steps="3")
+    folder.ranks = 2
+    folder.succeed(ARCH, "--restart", **settings, Analysis__Maximum_steps="5")
+    check_same("path", folder.rows("case_path.csv"), rows[:6], 1e-9)
 
 
 def thrust_frequency(load):

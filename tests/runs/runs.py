@@ -340,7 +340,7 @@ def restart_of_an_old_checkpoint(folder):
     folder.succeed("case.prm")
     slot = folder.read("case.checkpoint").split()[0]
     file = folder.path / "output" / f"case.checkpoint.{slot}.0"
-    file.write_bytes(file.read_bytes().replace(b"nacre checkpoint 7",
+    file.write_bytes(file.read_bytes().replace(b"nacre checkpoint 8",
                                                b"nacre checkpoint 2"))
     folder.fail("case.prm", "--restart",
                 expect=("another version of nacre", "nacre checkpoint 2"))

@@ -57,6 +57,17 @@ namespace Nacre
     void
     hold(const Vector &u, const Inertia &inertia, const double duration);
 
+    /** From now on those of another shell of the same discretization. */
+    void
+    hold(const FadingForce &held);
+
+    /** What hold() has been told last. */
+    const FadingForce &
+    held() const
+    {
+      return held_;
+    }
+
     /** Whether such forces act after @p time. */
     bool
     is_held(const double time) const

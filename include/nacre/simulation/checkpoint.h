@@ -7,6 +7,8 @@
 #include <nacre/analysis/path_analysis.h>
 #include <nacre/forms/section_states.h>
 #include <nacre/postprocess/vtu_output.h>
+#include <nacre/simulation/crack_growth.h>
+#include <nacre/simulation/mesh_record.h>
 #include <nacre/simulation/problem_record.h>
 
 #include <functional>
@@ -16,12 +18,34 @@ namespace Nacre
 {
   class Discretization;
 
-  /** What a checkpoint holds. */
-  struct CheckpointData
+  /** How far the cuts of a path have grown. */
+  struct GrowthRecord
+  {
+    GrowthState state;
+    /**
+     * Whether a step of growth comes next, and not a step of the path: from an
+     * equilibrium with G = G_c h along arc length, and after one that failed.
+     */
+    bool is_critical = false;
+    /** Rows of growth's table. */
+    unsigned int n_rows = 0;
+  };
+
+  /** What the discretization of a saved state is made of. */
+  struct CheckpointHead
   {
     /** Of the run that saves it. */
     ProblemRecord problem;
-    PathState     state;
+    GrowthRecord  growth;
+    MeshRecord    mesh;
+  };
+
+  /** What a checkpoint holds. */
+  struct CheckpointData : CheckpointHead
+  {
+    PathState state;
+    /** Of lips that are being released. */
+    FadingForce held;
     /** The fields written so far, by their step. */
     FieldRecords written_fields;
     /** Of a section with memory: what this rank knows, or, read, all of it. */
@@ -34,8 +58,8 @@ namespace Nacre
    * is killed at any moment finds the last complete one. Numbers are kept bit
    * for bit.
    *
-   * The first entries are the layout and the run's ProblemRecord. Then a rank's
-   * file holds the positions and values of the nodes of its cells, cell by cell
+   * The first entries are the layout and the CheckpointHead. Then a rank's file
+   * holds the positions and values of the nodes of its cells, cell by cell
    * under the cell's CellId, which no partition changes: any number of ranks
    * can go on from it. Cells are dealt out along a curve, so that a rank finds
    * its cells in a few neighbouring files and reads no others; but of sections
@@ -45,28 +69,37 @@ namespace Nacre
   {
   public:
     /**
-     * @param discretization of all states
      * @param base_name folder and name of the run's files
      * @param where what asks for the checkpoint, for messages of load()
      */
-    Checkpoint(const Discretization &discretization,
-               const std::string    &base_name,
-               const std::string    &where = "--restart");
+    Checkpoint(const MPI_Comm     communicator,
+               const std::string &base_name,
+               const std::string &where = "--restart");
 
-    /** Collective; throws on all ranks if a file can't be written. */
+    /**
+     * Collective; throws on all ranks if a file can't be written.
+     * @param discretization of the state
+     */
     void
-    save(const CheckpointData &data);
+    save(const Discretization &discretization, const CheckpointData &data);
 
     /** Says what is wrong with a record, or "". It must not communicate. */
     using Judge = std::function<std::string(const ProblemRecord &)>;
 
     /**
-     * Fill @p data on any number of ranks. Throws on all ranks if there is no
+     * The head alone, whose cuts and mesh load() needs. Throws on all ranks if
+     * there is no checkpoint, or one that @p judge doesn't accept. Collective.
+     */
+    CheckpointHead
+    load_head(const Judge &judge);
+
+    /**
+     * The data on any number of ranks. Throws on all ranks if there is no
      * checkpoint, one that @p judge doesn't accept, or one of another element
      * or mesh. Collective.
      */
-    void
-    load(CheckpointData &data, const Judge &judge);
+    CheckpointData
+    load(const Discretization &discretization, const Judge &judge);
 
     /** Remove the files of an earlier run; on rank 0. */
     void
@@ -82,24 +115,26 @@ namespace Nacre
     void
     read_record(unsigned int &n_writers);
 
-    /** Read one file; throws ExcMessage. */
+    /**
+     * Read one file; throws ExcMessage.
+     * @param values null: the head only
+     */
     void
     read_file(const unsigned int writer,
               CheckpointData    &data,
-              CellValues        &values,
+              CellValues        *values,
               const Judge       &judge) const;
 
     /** Remove the files of the ranks from @p first on. */
     void
     remove_slot(const unsigned int slot, const unsigned int first) const;
 
-    const Discretization &discretization_;
-    const MPI_Comm        communicator_;
-    const std::string     base_name_;
-    const std::string     where_;
-    const unsigned int    rank_;
-    const unsigned int    n_ranks_;
-    unsigned int          slot_ = 0;
+    const MPI_Comm     communicator_;
+    const std::string  base_name_;
+    const std::string  where_;
+    const unsigned int rank_;
+    const unsigned int n_ranks_;
+    unsigned int       slot_ = 0;
   };
 } // namespace Nacre
 

@@ -46,6 +46,19 @@ namespace Nacre
     //@}
   };
 
+  /** The cuts that growth has made, and what it knows of their tips. */
+  struct GrowthState
+  {
+    /** All of the shell. */
+    std::vector<CutCurve>   curves;
+    std::vector<GrowingTip> tips;
+    /** CrackGrowth::starts() */
+    std::vector<CrackStart> starts;
+    /** Cracks that have started. */
+    unsigned int n_started = 0;
+    unsigned int n_steps   = 0;
+  };
+
   /**
    * Which tips of a problem's cuts advance, and whereto: doc/growth.md. It
    * lengthens the cuts of the problem; who solves discretises anew.
@@ -135,9 +148,26 @@ namespace Nacre
 
     /** Take back the last step: the cuts and tips are those before it. */
     void
-    undo();
+    undo()
+    {
+      set_state(before_);
+    }
+
+    /** The cuts of now, and what is known of their tips. */
+    GrowthState
+    state() const;
+
+    /**
+     * Go on from the state @p then of a run whose cuts began as those of now;
+     * throws if they didn't.
+     */
+    void
+    resume(const GrowthState &then);
 
   private:
+    void
+    set_state(const GrowthState &state);
+
     CutTrace::Tip
     find(const Discretization &discretization, const GrowingTip &tip) const;
 
@@ -184,12 +214,8 @@ namespace Nacre
     std::vector<CrackStart> starts_;
     unsigned int            n_started_ = 0;
     unsigned int            n_steps_   = 0;
-    /** @name Before the last step */
-    //@{
-    std::vector<GrowingTip> former_tips_;
-    std::vector<CutCurve>   former_curves_;
-    unsigned int            former_started_ = 0;
-    //@}
+    /** The last step. */
+    GrowthState before_;
   };
 
   /** Throws for analyses that can't lengthen the cuts of @p problem. */

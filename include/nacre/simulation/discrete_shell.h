@@ -15,6 +15,10 @@ namespace Nacre
 {
   class Log;
 
+  /** The mesh of a problem before any adaptive refinement. Collective. */
+  std::unique_ptr<parallel::TriangulationBase<dim, spacedim>>
+  create_mesh(const MPI_Comm communicator, const ShellProblem &problem);
+
   /**
    * A shell on one mesh: its discretisation, supports and forms, and the solver
    * of its linear systems. The members are built in the order in which they

@@ -5,6 +5,7 @@
 #define nacre_simulation_growth_monitor_h
 
 #include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/simulation/checkpoint.h>
 #include <nacre/simulation/crack_growth.h>
 #include <nacre/simulation/output_options.h>
 
@@ -31,6 +32,13 @@ namespace Nacre
                   Log                        &log);
 
     /**
+     * Take up the table of the run that @p data was saved by; other quantities
+     * begin a new one, as PathMonitor::resume() does.
+     */
+    void
+    resume(const CheckpointData &data, const ProblemRecord &problem);
+
+    /**
      * A state, of whose tips @p growth knows. Collective.
      * @param time along a path; in linear analyses the step
      */
@@ -38,6 +46,13 @@ namespace Nacre
     observe(const CrackGrowth &growth,
             const double       time,
             const SolvedShell &shell);
+
+    /** Of the table. */
+    unsigned int
+    n_rows() const
+    {
+      return n_rows_;
+    }
 
     /** What has been written, for the end of the run. */
     std::string
@@ -55,17 +70,19 @@ namespace Nacre
     static void
     add_tip(const GrowingTip &tip, const Growth &growth, Row &row);
 
-    /** Append the last row, or write all if there are new columns. */
+    /** Append a @p row, or write all if there are new columns. */
     void
-    write_rows() const;
+    write_row(const Row &row);
 
     const MPI_Comm              communicator_;
     const std::string           csv_;
     const ShellProblem         &problem_;
     const QuantitiesOfInterest &quantities_;
     Log                        &log_;
-    std::vector<Row>            rows_;
-    unsigned int                n_steps_ = 0;
+    /** Of the table so far; on rank 0. */
+    std::string  header_;
+    unsigned int n_rows_  = 0;
+    unsigned int n_steps_ = 0;
   };
 } // namespace Nacre
 

@@ -11,6 +11,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -25,11 +26,14 @@ namespace Nacre
   class PathMonitor
   {
   public:
+    /** Adds what only the run knows to the data of a checkpoint. */
+    using Completion = std::function<void(CheckpointData &)>;
+
     /**
      * @param options with the name of the path's own files
      * @param points_csv the table of the points of all paths
      * @param branch the number of this one; 0: the primary path
-     * @param saves whether the state may be saved: not where the mesh changes
+     * @param completion of what is saved
      */
     PathMonitor(const MPI_Comm              communicator,
                 const OutputOptions        &options,
@@ -38,7 +42,7 @@ namespace Nacre
                 const PathParameters       &path,
                 const QuantitiesOfInterest &quantities,
                 Checkpoint                 &checkpoint,
-                const bool                  saves,
+                const Completion           &completion,
                 Log                        &log);
 
     /** Begin with the parameters @p problem, which checkpoints remember. */
@@ -118,6 +122,7 @@ namespace Nacre
     const TimeGrid              grid_;
     const QuantitiesOfInterest &quantities_;
     Checkpoint                 &checkpoint_;
+    const Completion            completion_;
     /** 0: never. */
     const unsigned int checkpoint_steps_;
     Log               &log_;

@@ -25,8 +25,8 @@ namespace Nacre
 
   /**
    * A load path or a motion, with files of its own: a row for each step,
-   * fields, checkpoints. A static path, or one whose t is unknown, may refine
-   * its mesh on the way, and cuts may grow; it then has no checkpoints.
+   * fields, checkpoints. Cuts may grow on the way; a static path, or one whose
+   * t is unknown, may refine its mesh.
    *
    * A curve of equilibria may have several branches, which are paths with files
    * of their own, followed one after the other. The study's table holds the
@@ -62,9 +62,23 @@ namespace Nacre
     run(Recorder &recorder, const bool restart) override;
 
   private:
-    /** Refuse a restart of what has no checkpoints. */
+    /**
+     * The shell that a path begins with: at a restart with the cuts and the
+     * mesh of the checkpoint. Collective.
+     */
+    std::unique_ptr<SteppedShell>
+    first_shell(const Recorder &recorder, const bool restart);
+
+    /**
+     * Begin with the cuts of the checkpoint @p base; returns its mesh, or null
+     * if that is the problem's. Collective.
+     */
+    std::unique_ptr<MeshRecord::Mesh>
+    take_cuts_and_mesh(const std::string &base);
+
+    /** Add to @p data what is known of the shell of now. */
     void
-    check_restart(const bool restart) const;
+    complete(CheckpointData &data) const;
 
     /** The end of a path, and why it failed, or "". */
     struct PathEnd
@@ -214,7 +228,7 @@ namespace Nacre
     double       assembly_seconds_     = 0.; // of the meshes before
     unsigned int n_refinements_        = 0;
     bool         has_warned_of_energy_ = false;
-    /** Whether the state is one from which the next step of growth begins. */
+    /** GrowthRecord::is_critical */
     bool is_critical_ = false;
   };
 } // namespace Nacre

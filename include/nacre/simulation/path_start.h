@@ -20,6 +20,7 @@ namespace Nacre
   CheckpointData
   load_restart(const PathParameters &parameters,
                const ProblemRecord  &problem,
+               const Discretization &discretization,
                Checkpoint           &checkpoint,
                Log                  &log);
 
