@@ -13,7 +13,7 @@ using namespace CutShells;
 
 namespace
 {
-  const std::vector<CutCurve> crack = {line("crack", {{-.1, .43}, {.53, .48}})};
+  const std::vector<CutCurve> crack = {line("crack", {{-.1, .43}, {.63, .48}})};
 
   CutShell
   cracked_plate(const Element &element, const KinematicsModel model)
@@ -73,7 +73,7 @@ namespace
     const auto     u      = some_field(old);
     CutShell       after  = cracked_plate(element, model);
     const auto     v =
-      after.refine(Point<3>(.53, .48, 0.), element, crack, {&u}).front();
+      after.refine(Point<3>(.63, .48, 0.), element, crack, {&u}).front();
     const auto &now = *after.discretization;
 
     unsigned int n_at_tip = 0, n_in_ring = 0;
