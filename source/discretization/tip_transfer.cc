@@ -91,15 +91,15 @@ namespace Nacre
     for (const Tip &tip : tips_)
       {
         field.tips_.push_back({tip.place, nullptr, {}, 0});
+        auto &now = field.tips_.back();
         for (unsigned int t = 0; t < places.size() && patches != nullptr; ++t)
           if (is_same(places[t], tip.place, tip.functions->length()))
             {
-              const auto &functions = patches->functions(t);
-              field.tips_.back()    = {
-                   places[t],
-                   functions,
-                   tip.functions->coefficients_of(*functions, tip.coefficients[k]),
-                   patches->first_dof(t)};
+              now.functions = patches->functions(t);
+              now.coefficients =
+                tip.functions->coefficients_of(*now.functions,
+                                               tip.coefficients[k]);
+              now.first_dof = patches->first_dof(t);
             }
       }
     return field;

@@ -27,14 +27,14 @@ namespace Nacre
    * tip that stays where it is has the same functions F_k on both meshes, but
    * for the length that scales them, and keeps its coefficients c_k. A node at
    * X_a, at xi in the part before, takes the value there of all the field,
+   * (C.4''') of doc/cutting.md,
    *
    *   u_a = sum_b N_b(xi) u_b
    *         + chi(xi) sum_k c_k (F_k(X_a) - sum_b N_b(xi) F_k(X_b)),
    *
-   * by which the new field is the old one where both chi are 1 and cells are
-   * the children of cells; where a chi has fallen, the two are as far apart as
-   * the F_k and their interpolants. Functions of a tip that moves on are left
-   * out.
+   * by which on a plate the new field is the old one where both chi are 1.
+   * Where chi has fallen, the two are as far apart as the F_k and their
+   * interpolants. Functions of a tip that moves on are left out.
    */
   class TipTransfer
   {
