@@ -8,6 +8,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Nacre
@@ -152,7 +153,13 @@ namespace Nacre
     const auto      tips      = tips_.on(discretization, k);
     Vector          field(owned, discretization.communicator());
     std::vector<types::global_dof_index> dofs;
-    for (const CellPart &part : discretization.relevant_parts())
+    // A small part may have lain on the other side of a cut that 'Cuts/Snap' no
+    // longer moves: parts that share its nodes have the last word.
+    auto parts = discretization.relevant_parts();
+    std::stable_partition(parts.begin(), parts.end(), [&](const auto &part) {
+      return discretization.is_small(part);
+    });
+    for (const CellPart &part : parts)
       {
         const ChildMap &map =
           maps[sources_[part.cell->active_cell_index()].map];
