@@ -73,9 +73,8 @@ namespace Nacre
             append_jumps(share, fields, shapes, q, result);
             continue;
           }
-        const auto  &c = share.cutoff;
-        const double chi =
-          c[0] + c[1] * unit[0] + c[2] * unit[1] + c[3] * unit[0] * unit[1];
+        const auto                 &c   = share.cutoff;
+        const double                chi = PartEnrichment::chi(c, unit);
         const std::array<double, 2> dchi{
           {c[1] + c[3] * unit[1], c[2] + c[3] * unit[0]}};
         for (unsigned int k = 0; k < fields.size(); ++k)

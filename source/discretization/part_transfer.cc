@@ -8,6 +8,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Nacre
@@ -37,21 +38,24 @@ namespace Nacre
     const Discretization                               &discretization,
     const std::vector<const Vector *>                  &fields,
     const std::function<PointValues(const CellPart &)> &at_points)
-    : sources_(discretization.triangulation().n_active_cells())
+    : tips_(discretization, fields)
+    , sources_(discretization.triangulation().n_active_cells())
   {
+    const auto                          &node_dofs = discretization.node_dofs();
     std::vector<types::global_dof_index> dofs;
     // Parts of ghosts, too: the owner of a copy need not have a part of it.
     for (const CellPart &part : discretization.relevant_parts())
       {
         discretization.get_dof_indices(part, dofs);
-        PartFields of_part{outline_of(part), {}, {}};
+        PartFields of_part{outline_of(part), {}, tips_.shares(part), {}};
         if (at_points && part.cell->is_locally_owned())
           of_part.at_points = at_points(part);
         for (const Vector *const field : fields)
           {
-            of_part.values.emplace_back();
-            for (const unsigned int i : discretization.node_dofs())
-              of_part.values.back().push_back((*field)(dofs[i]));
+            NodalVectors u(node_dofs.size() / spacedim);
+            for (unsigned int i = 0; i < node_dofs.size(); ++i)
+              u[i / spacedim][i % spacedim] = (*field)(dofs[node_dofs[i]]);
+            of_part.values.push_back(u);
           }
         sources_[part.cell->active_cell_index()].parts.push_back(
           std::move(of_part));
@@ -142,14 +146,20 @@ namespace Nacre
   {
     AssertDimension(sources_.size(),
                     discretization.triangulation().n_active_cells());
-    const IndexSet    &owned     = discretization.locally_owned_dofs();
-    const auto        &fe        = discretization.scalar_fe();
-    const auto        &node_dofs = discretization.node_dofs();
-    const auto         maps      = child_maps(fe.reference_cell());
-    const unsigned int n_nodes   = fe.n_dofs_per_cell();
-    Vector             field(owned, discretization.communicator());
+    const IndexSet &owned     = discretization.locally_owned_dofs();
+    const auto     &fe        = discretization.scalar_fe();
+    const auto     &node_dofs = discretization.node_dofs();
+    const auto      maps      = child_maps(fe.reference_cell());
+    const auto      tips      = tips_.on(discretization, k);
+    Vector          field(owned, discretization.communicator());
     std::vector<types::global_dof_index> dofs;
-    for (const CellPart &part : discretization.relevant_parts())
+    // A small part may have lain on the other side of a cut that 'Cuts/Snap' no
+    // longer moves: parts that share its nodes have the last word.
+    auto parts = discretization.relevant_parts();
+    std::stable_partition(parts.begin(), parts.end(), [&](const auto &part) {
+      return discretization.is_small(part);
+    });
+    for (const CellPart &part : parts)
       {
         const ChildMap &map =
           maps[sources_[part.cell->active_cell_index()].map];
@@ -157,23 +167,18 @@ namespace Nacre
           fields_around(part, map.to_parent(part.inner_point()));
         if (fields == nullptr)
           continue;
-        const auto &values = fields->values[k];
         discretization.get_dof_indices(part, dofs);
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          {
-            const Point<dim> unit = map.to_parent(fe.unit_support_point(a));
-            for (unsigned int c = 0; c < spacedim; ++c)
-              {
-                const auto dof = dofs[node_dofs[spacedim * a + c]];
-                if (!owned.is_element(dof))
-                  continue;
-                double value = 0.;
-                for (unsigned int b = 0; b < n_nodes; ++b)
-                  value += fe.shape_value(b, unit) * values[spacedim * b + c];
-                field(dof) = value;
-              }
-          }
+        for (unsigned int a = 0; a < fe.n_dofs_per_cell(); ++a)
+          if (owned.is_element(dofs[node_dofs[spacedim * a]]))
+            {
+              const Point<dim> unit = map.to_parent(fe.unit_support_point(a));
+              const auto       u    = value_at(fe, fields->values[k], unit) +
+                             tips.value_at_node(fields->tips, a, part, unit);
+              for (unsigned int c = 0; c < spacedim; ++c)
+                field(dofs[node_dofs[spacedim * a + c]]) = u[c];
+            }
       }
+    tips.set_coefficients(field);
     field.compress(VectorOperation::insert);
     discretization.node_constraints().distribute(field);
     return field;

@@ -98,6 +98,32 @@ namespace Nacre
     return result;
   }
 
+  Tensor<1, 3>
+  TipFunctions::sum(const std::vector<Tensor<1, 3>> &values,
+                    const std::vector<double>       &coefficients) const
+  {
+    AssertDimension(values.size(), n_fields());
+    AssertDimension(coefficients.size(), size());
+    Tensor<1, 3> result;
+    for (unsigned int i = 0; i < size(); ++i)
+      result +=
+        coefficients[i] *
+        (are_scalars_ ? values[i / 3][0] * direction(i % 3) : values[i]);
+    return result;
+  }
+
+  std::vector<double>
+  TipFunctions::coefficients_of(const TipFunctions        &other,
+                                const std::vector<double> &coefficients) const
+  {
+    AssertDimension(coefficients.size(), size());
+    std::vector<double> result(coefficients);
+    for (unsigned int i = 0; i < size(); ++i)
+      result[i] *= std::pow(other.length_ / length_,
+                            fields_[are_scalars_ ? i / 3 : i].degree());
+    return result;
+  }
+
   void
   TipFunctions::evaluate(const FieldDerivatives        &surface,
                          const int                      side,

@@ -55,6 +55,15 @@ namespace Nacre
     return result;
   }
 
+  double
+  PolarSeries::degree() const
+  {
+    double result = 0.;
+    for (const Term &term : terms_)
+      result = std::max(result, term.exponent);
+    return result;
+  }
+
   WilliamsField::WilliamsField(const std::array<PolarSeries, 3> &displacement)
     : values_(displacement)
   {
@@ -75,6 +84,13 @@ namespace Nacre
     for (unsigned int c = 0; c < 3; ++c)
       values[c] = values_[c].stretched(length);
     return WilliamsField(values);
+  }
+
+  double
+  WilliamsField::degree() const
+  {
+    return std::max(
+      {values_[0].degree(), values_[1].degree(), values_[2].degree()});
   }
 
   namespace

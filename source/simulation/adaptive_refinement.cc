@@ -144,14 +144,6 @@ namespace Nacre
     AssertThrow(tip_size_ == 0. || !problem.model.cuts.is_empty(),
                 ExcMessage(section + "Cells at tips: there are no cuts "
                                      "(Cuts/Cuts); set it to 0."));
-    AssertThrow(problem.model.cuts.tips != CutTips::branch_functions ||
-                  !problem.model.cuts.tips_turn,
-                ExcMessage(section +
-                           "Cycles: in large rotations meshes with 'Cuts/Tips "
-                           "= branch functions' aren't refined, since the "
-                           "functions' part of the displacements would be "
-                           "dropped; set it to 0, or choose 'closed' or "
-                           "'harmonic'."));
     AssertThrow(!problem.growth.is_on(),
                 ExcMessage(section +
                            "Cycles: cuts that grow (Growth/Tips) keep their "

@@ -7,6 +7,7 @@
 // A shell that cuts divide, for tests of its forms.
 
 #include "../finite/finite_shell.h"
+#include <nacre/discretization/part_transfer.h>
 #include <nacre/mechanics/shell_section.h>
 #include <nacre/postprocess/refinement_marking.h>
 #include <nacre/problem/cuts.h>
@@ -98,23 +99,27 @@ namespace CutShells
                                          cuts);
     }
 
-    void
-    refine(const Point<3>              &point,
-           const Element               &element,
-           const std::vector<CutCurve> &curves)
+    /** Quarter the cells at @p point. The @p fields, and what they become. */
+    std::vector<TrilinosVector>
+    refine(const Point<3>                            &point,
+           const Element                             &element,
+           const std::vector<CutCurve>               &curves,
+           const std::vector<const TrilinosVector *> &fields = {})
     {
       std::vector<bool> marked(discretization->triangulation().n_active_cells(),
                                false);
       marked[discretization->nearest(point).part.cell->active_cell_index()] =
         true;
       RefinementMarking::add_cells_along_cuts(*discretization, marked);
-      auto mesh = discretization->release_triangulation();
+      PartTransfer transfer(*discretization, fields);
+      auto         mesh = discretization->release_triangulation();
       discretization.reset();
-      for (const auto &cell : mesh->active_cell_iterators())
-        if (marked[cell->active_cell_index()])
-          cell->set_refine_flag();
-      mesh->execute_coarsening_and_refinement();
+      transfer.refine(*mesh, marked);
       make_discretization(std::move(mesh), element, curves);
+      std::vector<TrilinosVector> result;
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        result.push_back(transfer.field_on(*discretization, k));
+      return result;
     }
 
     /** Nodal values of a field of each part; followers follow. */

@@ -47,11 +47,6 @@ case("radius_of_bent_surface", ["Cuts/Tips", "'Cuts/Tip radius'",
       "Boundary conditions/Edges": "v=0: fixed"})
 case("point_force", ["Loads", "two cells of the tip", "'Cuts/Tips = closed'"],
      {"Loads/Point forces": "(0.55, 0.2, 0): 0, 0, 1"})
-case("cycles_in_large_rotations",
-     ["Adaptive refinement/Cycles", "large rotations", "'harmonic'"],
-     {"Analysis/Type": "static", "Discretization/Kinematics": "finite",
-      "Quantities/Quantities": "", "Adaptive refinement/Cycles": "1",
-      "Adaptive refinement/Every steps": "1"}, ["--check"])
 case("turns", ["Cuts/Tips", "turns in the cell in which it ends"],
      {"Cuts/Cuts": "crack: uv (-1.1, 0.003) (0.4, 0.003) (0.44, 0.06)",
       "Quantities/Quantities": ""})

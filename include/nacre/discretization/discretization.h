@@ -195,6 +195,13 @@ namespace Nacre
              (tip_openings_ != nullptr && tip_openings_->opens(tip));
     }
 
+    /** Of tips that have branch functions; null: none. */
+    const TipPatches *
+    tip_patches() const
+    {
+      return tip_patches_.get();
+    }
+
     /** Of tips that harmonic functions should open; null: none. */
     const TipOpenings *
     tip_openings() const

@@ -37,14 +37,23 @@ namespace Nacre
    */
   struct PartEnrichment
   {
+    /** chi = chi_0 + chi_1 xi_1 + chi_2 xi_2 + chi_3 xi_1 xi_2. */
+    using Cutoff = std::array<double, 4>;
+
+    static double
+    chi(const Cutoff &cutoff, const Point<dim> &unit)
+    {
+      return cutoff[0] + cutoff[1] * unit[0] + cutoff[2] * unit[1] +
+             cutoff[3] * unit[0] * unit[1];
+    }
+
     /** What one tip adds. */
     struct Share
     {
       std::shared_ptr<const TipFunctions> functions;
       /** The sheet, as TipFunctions takes it. */
-      int side = 0;
-      /** chi = chi_0 + chi_1 xi_1 + chi_2 xi_2 + chi_3 xi_1 xi_2. */
-      std::array<double, 4> cutoff{};
+      int    side = 0;
+      Cutoff cutoff{};
       /** F_k(X_a) as [a][k]. */
       std::vector<std::vector<Tensor<1, 3>>> at_nodes;
       /** A node of the edge by which the crack enters the cell. */

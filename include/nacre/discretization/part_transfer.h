@@ -5,9 +5,7 @@
 #define nacre_discretization_part_transfer_h
 
 #include <nacre/discretization/child_map.h>
-#include <nacre/discretization/discretization.h>
-
-#include <deal.II/lac/trilinos_vector.h>
+#include <nacre/discretization/tip_transfer.h>
 
 #include <functional>
 #include <utility>
@@ -52,8 +50,8 @@ namespace Nacre
    * and bending energy are those of before; nodes of small parts then follow
    * their roots, (C.3) of doc/cutting.md. New nodes of the geometry lie on the
    * exact surface, so that the deformed surface changes by as much as the
-   * undeformed one does. Functions of tips, which move on, are left out. What a
-   * part has at points, such as states of its section, goes along.
+   * undeformed one does. Branch functions of tips go along as TipTransfer says,
+   * and so does what a part has at points, such as states of its section.
    *
    * The steps, each collective: the constructor; the triangulation of the
    * discretisation is released; refine(), if wanted; another discretisation
@@ -100,15 +98,16 @@ namespace Nacre
     struct PartFields
     {
       Outline outline;
-      /** By field, then 3 node + component. */
-      std::vector<std::vector<double>> values;
-      PointValues                      at_points;
+      /** By field. */
+      std::vector<NodalVectors>       values;
+      std::vector<TipTransfer::Share> tips;
+      PointValues                     at_points;
 
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
       {
-        archive &outline &values &at_points;
+        archive &outline &values &tips &at_points;
       }
     };
 
@@ -131,6 +130,7 @@ namespace Nacre
     const PartFields *
     fields_around(const CellPart &part, const Point<dim> &inside) const;
 
+    const TipTransfer tips_;
     /** By active cell index; of this rank's cells and ghosts. */
     std::vector<Source> sources_;
     bool                is_refined_ = false;

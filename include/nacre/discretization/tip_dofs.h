@@ -39,6 +39,13 @@ namespace Nacre
     virtual void
     complete(const std::vector<Dof> &ends, CellParts &parts) = 0;
 
+    /** Of the functions of the tip @p t, of whatever rank. */
+    Dof
+    first_dof(const unsigned int t) const
+    {
+      return ranges_[t].first;
+    }
+
     /** The dofs of all functions, of all ranks. */
     const IndexSet &
     dofs() const

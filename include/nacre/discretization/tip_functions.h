@@ -127,7 +127,33 @@ namespace Nacre
     values(const Point<3> &position, const int side) const;
 
     /**
-     * Those, and their derivatives by the surface's coordinates.
+     * The displacement (length) sum_k c_k F_k, or sum_k f_k c_k of scalars.
+     * @param values as values() returns them
+     * @param coefficients c_k, the three of each scalar in turn
+     */
+    Tensor<1, 3>
+    sum(const std::vector<Tensor<1, 3>> &values,
+        const std::vector<double>       &coefficients) const;
+
+    /**
+     * The coefficients by which the branch functions @p other, of the same
+     * tip but scaled by another length, are the displacement that these are
+     * with @p coefficients: the F_k go as a power of r over the length.
+     */
+    std::vector<double>
+    coefficients_of(const TipFunctions        &other,
+                    const std::vector<double> &coefficients) const;
+
+    /** By which the functions are scaled. */
+    double
+    length() const
+    {
+      return length_;
+    }
+
+    /**
+     * The values of all fields, and their derivatives by the surface's
+     * coordinates.
      * @param surface position, and its derivatives (length)
      */
     void

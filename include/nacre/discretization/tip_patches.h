@@ -45,6 +45,13 @@ namespace Nacre
     void
     complete(const std::vector<Dof> &ends, CellParts &parts) override;
 
+    /** Of the tip @p t, of whatever rank. */
+    const std::shared_ptr<const TipFunctions> &
+    functions(const unsigned int t) const
+    {
+      return patches_[t].functions;
+    }
+
     /** A node that follows others, u_s = sum_a C_sa u_a, and their places. */
     struct Line
     {

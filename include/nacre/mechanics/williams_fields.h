@@ -45,6 +45,10 @@ namespace Nacre
     PolarSeries
     stretched(const double length) const;
 
+    /** The largest exponent a of r; without terms 0. */
+    double
+    degree() const;
+
     void
     add(const PolarSeries &other)
     {
@@ -127,6 +131,10 @@ namespace Nacre
     /** The same with r over @p length in place of r. */
     WilliamsField
     stretched(const double length) const;
+
+    /** The largest exponent of r. */
+    double
+    degree() const;
 
     template <typename Number>
     Tensor<1, 3, Number>
