@@ -205,9 +205,10 @@ def control_of_results(folder):
     folder.fail(ARCH, **dict(arch, Analysis__Control="U"),
                 expect=("doesn't change", "Analysis/Control", "Start from"))
     metal = dict(COARSE, Quantities__Quantities="w = displacement z at (0, 0, "
-                 "0); m = moment 11 at (0, 0, 0)", Study__Degrees="2",
+                 "0); m = moment 11 at (0.2, 0, 0)", Study__Degrees="2",
                  Analysis__Control="m", Analysis__Control_step="0.45*M_p",
-                 Analysis__Control_values="0.9*M_p")
+                 Analysis__Control_values="0.9*M_p",
+                 Analysis__Maximum_steps="2")
     folder.succeed(METAL, **metal)
     rows = folder.rows("case_path.csv")
     check_near("a metal's m", rows[-1]["m"], 0.9e-10, 1e-6)
