@@ -23,11 +23,10 @@ function(nacre_driver folder program)
       COMMAND ${PYTHON3} ${driver} $<TARGET_FILE:nacre> ${words} ${name})
     if(words)
       set_tests_properties(${test} PROPERTIES PROCESSORS ${words})
-    else()
-      # For tests/mutations
-      set_property(GLOBAL PROPERTY nacre_study/${test}
-        ${PYTHON3} ${driver} $<TARGET_FILE:nacre> ${name})
     endif()
+    # For tests/mutations
+    set_property(GLOBAL PROPERTY nacre_study/${test}
+      ${PYTHON3} ${driver} $<TARGET_FILE:nacre> ${words} ${name})
     if(ARGUMENT_TIMEOUT)
       set_tests_properties(${test} PROPERTIES TIMEOUT ${ARGUMENT_TIMEOUT})
     endif()

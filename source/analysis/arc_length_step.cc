@@ -101,15 +101,25 @@ namespace Nacre
       {
         Vector change(u);
         change -= start_;
-        return distance_ - normal_ * change;
+        found_ = ControlledQuantity::with_gradient(normal_ * change, normal_);
+        return distance_ - found_.value;
       }
-    const auto found  = quantity_->evaluate(u, time_);
-    normal_           = found.gradient;
-    quantity_rate_    = found.rate;
-    const double left = quantity_->change(found.value, value_);
+    found_            = quantity_->evaluate(u, time_);
+    const double left = quantity_->change(found_.value, value_);
     if (is_first_)
       distance_ = left;
     return left;
+  }
+
+  StepFailure
+  ArcLengthStep::no_tangent() const
+  {
+    if (quantity_ != nullptr && is_first_)
+      return {FailureKind::constant_quantity,
+              "the controlled quantity doesn't change along the path there"};
+    return {FailureKind::singular_tangent,
+            "the path has no tangent to working precision, or the controlled "
+            "quantity doesn't change along it"};
   }
 
   NewtonSolver::Step
@@ -122,15 +132,13 @@ namespace Nacre
     const Vector           &velocity = rate.velocity;
     if (quantity_ == nullptr && normal_.size() == 0)
       set_tangent_plane(velocity);
-    const double left     = distance_left(u);
-    const double slope    = normal_ * velocity + quantity_rate_;
-    const double dt       = (left - normal_ * du) / slope;
-    const double smallest = 1e-12 * normal_.l2_norm() * velocity.l2_norm();
-    if (!(std::abs(slope) > smallest) || !std::isfinite(dt))
+    const double left  = distance_left(u);
+    const auto   along = found_.slope(velocity);
+    const double slope = along.value + found_.rate;
+    const double dt    = (left - found_.slope(du).value) / slope;
+    if (!(std::abs(slope) > along.error) || !std::isfinite(dt))
       {
-        step.failure = {FailureKind::singular_tangent,
-                        "the path has no tangent to working precision, or the "
-                        "controlled quantity doesn't change along it"};
+        step.failure = no_tangent();
         return step;
       }
     du.add(dt, velocity);

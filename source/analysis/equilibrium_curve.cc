@@ -133,6 +133,7 @@ namespace Nacre
     const bool is_near = state.begins_branch &&
                          attempt.result.kind == FailureKind::singular_tangent;
     const bool may_go_on =
+      attempt.result.kind != FailureKind::constant_quantity &&
       step_control_.reject(state,
                            is_near ? 4. * state.next_step : state.next_step);
     if (!may_go_on ||

@@ -22,7 +22,8 @@ namespace Nacre
                    "where the path turns sharply";
           case AnalysisType::displacement_control:
             return "'Type = arc length' where the controlled quantity turns "
-                   "back, or a smaller 'Analysis/Control step'";
+                   "back or the loads hardly change it, or a smaller "
+                   "'Analysis/Control step'";
           case AnalysisType::relaxation:
             return "'Type = dynamic'";
           default:
@@ -46,6 +47,11 @@ namespace Nacre
                  "its cells may be too thin, or the path bifurcates there: "
                  "prescribe more, or try " +
                  other_analysis(parameters) + ".";
+        case FailureKind::constant_quantity:
+          return "No step is small enough: 'Analysis/Control' needs a quantity "
+                 "that the loads change in that state. What begins with their "
+                 "square, as an energy, can be controlled from a loaded state "
+                 "on: 'Analysis/Start from'.";
         case FailureKind::not_finite:
           return "Cells collapse, or the loads or the stiffness are of an "
                  "extreme size: check their units, or try a finer mesh.";

@@ -363,8 +363,8 @@ namespace Nacre
       "Control",
       control_text_,
       "With displacement control: the name of the quantity that is "
-      "prescribed in steps, a displacement or a rotation at a point, or a "
-      "reaction.");
+      "prescribed in steps: whatever a displacement makes, as all results at "
+      "a point, a reaction or the opening of a cut.");
     add_parameter(
       "Control values",
       control_values_text_,

@@ -9,8 +9,9 @@
 #include <deal.II/base/qprojector.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/lac/lapack_support.h>
 #include <deal.II/lac/lapack_templates.h>
+
+#include <sstream>
 
 namespace Nacre
 {
@@ -180,7 +181,7 @@ namespace Nacre
         const double          one = 1., zero = 0.;
         types::blas_int       info = 0;
         potrf("L", &n, &energy_(0, 0), &n, &info);
-        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("potrf", info));
+        check(info);
         trtrs("L",
               "N",
               "N",
@@ -191,7 +192,7 @@ namespace Nacre
               moments_.data(),
               &n,
               &info);
-        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("trtrs", info));
+        check(info);
         const types::blas_int size = std::min(m, n);
         small_.reinit(size, size, true);
         syrk("L",
@@ -216,8 +217,22 @@ namespace Nacre
              work_.data(),
              &n_work,
              &info);
-        AssertThrow(info == 0, LAPACKSupport::ExcErrorCode("syev", info));
+        check(info);
         return eigenvalues_.back();
+      }
+
+      /** Throw what makes LAPACK end with @p info, if that isn't 0. */
+      void
+      check(const types::blas_int info) const
+      {
+        if (info == 0)
+          return;
+        std::ostringstream text;
+        text << "Section: the bending stiffness of the cell at ("
+             << values_.point(0)
+             << ") is too large or too small to reckon with. Check the units "
+                "of thickness and stiffness, and the shape of the cell.";
+        AssertThrow(false, ExcMessage(text.str()));
       }
 
       const SectionLaw     &section_;

@@ -4,7 +4,7 @@
 #include <nacre/base/mpi_errors.h>
 #include <nacre/base/text.h>
 #include <nacre/postprocess/ply_quantities.h>
-#include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/postprocess/shell_state.h>
 #include <nacre/postprocess/strain_values.h>
 
 #include <algorithm>
@@ -86,18 +86,18 @@ namespace Nacre
   }
 
   double
-  evaluate_ply_quantity(const SolvedShell &shell, const PlyQuantity &quantity)
+  evaluate_ply_quantity(const ShellState &state, const PlyQuantity &quantity)
   {
-    const auto &discretization = shell.discretization;
+    const auto &discretization = state.discretization;
     const auto  place = discretization.locate(quantity.point, quantity.where);
     double      value = 0.;
     run_on_all_ranks(discretization.communicator(), [&]() {
       if (!place.is_mine)
         return;
-      StrainValues strains(shell, Quadrature<dim>(place.unit));
+      StrainValues strains(state, Quadrature<dim>(place.unit));
       strains.reinit(place.part);
       value = value_of(quantity,
-                       shell.section().layers(strains.membrane(0),
+                       state.section().layers(strains.membrane(0),
                                               strains.bending(0),
                                               strains.values().frame(0),
                                               strains.values().point(0),

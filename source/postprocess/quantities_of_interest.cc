@@ -6,13 +6,12 @@
 #include <nacre/mechanics/j2_plasticity.h>
 #include <nacre/postprocess/crack_quantities.h>
 #include <nacre/postprocess/cut_quantities.h>
-#include <nacre/postprocess/error_norms.h>
 #include <nacre/postprocess/mode_quantities.h>
-#include <nacre/postprocess/momentum.h>
 #include <nacre/postprocess/ply_quantities.h>
 #include <nacre/postprocess/point_quantities.h>
 #include <nacre/postprocess/quantities_of_interest.h>
 #include <nacre/postprocess/reactions.h>
+#include <nacre/postprocess/simple_quantities.h>
 #include <nacre/postprocess/state_quantities.h>
 #include <nacre/problem/exact_solution.h>
 #include <nacre/problem/midsurface.h>
@@ -46,7 +45,7 @@ namespace Nacre
     }
 
     double
-    displacement_at(const SolvedShell            &shell,
+    displacement_at(const ShellState             &shell,
                     const Point<spacedim>        &point,
                     const std::optional<Vector3> &direction,
                     const std::string            &where)
@@ -59,120 +58,17 @@ namespace Nacre
       return Utilities::MPI::sum(value, shell.discretization.communicator());
     }
 
-    double
-    maximum_displacement(const SolvedShell &shell)
-    {
-      const auto  &discretization = shell.discretization;
-      const auto  &node_dofs      = discretization.node_dofs();
-      double       maximum        = 0.;
-      StrainValues on_parts(
-        shell,
-        Quadrature<dim>(discretization.scalar_fe().get_unit_support_points()),
-        true);
-      std::vector<types::global_dof_index> dofs(node_dofs.size());
-      for (const CellPart &part : discretization.owned_parts())
-        {
-          if (part.is_cut())
-            {
-              // Some of its nodes lie beyond a cut.
-              on_parts.reinit(part);
-              for (unsigned int q = 0; q < on_parts.values().n_points(); ++q)
-                maximum = std::max(maximum, on_parts.displacement(q).norm());
-              continue;
-            }
-          discretization.get_dof_indices(part, dofs);
-          for (unsigned int a = 0; a < node_dofs.size() / spacedim; ++a)
-            {
-              Vector3 u;
-              for (unsigned int c = 0; c < spacedim; ++c)
-                u[c] = shell.displacement(dofs[node_dofs[spacedim * a + c]]);
-              maximum = std::max(maximum, u.norm());
-            }
-        }
-      return Utilities::MPI::max(maximum, discretization.communicator());
-    }
-
     using Phrase   = QuantityPhrase;
-    using Evaluate = std::function<double(const SolvedShell &)>;
+    using Quantity = QuantitiesOfInterest::Quantity;
 
-    template <typename Function>
-    Evaluate
-    of_energies(const Function &part)
+    void
+    set_of_displacement(
+      Quantity                                        &quantity,
+      const std::function<double(const ShellState &)> &evaluate)
     {
-      return [part](const SolvedShell &shell) {
-        return std::invoke(part, shell.energies);
-      };
-    }
-
-    Evaluate
-    error_norm(double ErrorNorms::*norm)
-    {
-      return [norm](const SolvedShell &shell) {
-        return compute_error_norms(shell).*norm;
-      };
-    }
-
-    double
-    total_energy(const SolvedShell &shell)
-    {
-      return shell.energies.total() + kinetic_energy(shell);
-    }
-
-    template <typename Function>
-    Evaluate
-    of_balance(const Function &part)
-    {
-      return [part](const SolvedShell &shell) {
-        return std::invoke(part, shell.balance);
-      };
-    }
-
-    Evaluate
-    momentum(const unsigned int c, const bool angular)
-    {
-      return [=](const SolvedShell &shell) {
-        return (angular ? angular_momentum(shell) : linear_momentum(shell))[c];
-      };
-    }
-
-    /** A kind without arguments. */
-    struct SimpleKind
-    {
-      std::string name;
-      Evaluate    evaluate;
-      bool        is_error;
-    };
-
-    const std::vector<SimpleKind> &
-    simple_kinds()
-    {
-      static const std::vector<SimpleKind> kinds = {
-        {"maximum displacement", maximum_displacement, false},
-        {"energy", of_energies(&Energies::total), false},
-        {"membrane energy", of_energies(&Energies::membrane), false},
-        {"bending energy", of_energies(&Energies::bending), false},
-        {"edge energy", of_energies(&Energies::edge), false},
-        {"plastic dissipation", plastic_dissipation, false},
-        {"foundation energy", of_energies(&Energies::foundation), false},
-        {"kinetic energy", kinetic_energy, false},
-        {"total energy", total_energy, false},
-        {"external work", of_balance(&EnergyBalance::external_work), false},
-        {"work of prescribed motion",
-         of_balance(&EnergyBalance::prescribed_work),
-         false},
-        {"dissipation", of_balance(&EnergyBalance::dissipation), false},
-        {"released energy", of_balance(&EnergyBalance::released), false},
-        {"energy balance", of_balance(&EnergyBalance::gain), false},
-        {"momentum x", momentum(0, false), false},
-        {"momentum y", momentum(1, false), false},
-        {"momentum z", momentum(2, false), false},
-        {"angular momentum x", momentum(0, true), false},
-        {"angular momentum y", momentum(1, true), false},
-        {"angular momentum z", momentum(2, true), false},
-        {"L2 error", error_norm(&ErrorNorms::L2), true},
-        {"H1 error", error_norm(&ErrorNorms::H1), true},
-        {"energy error", error_norm(&ErrorNorms::energy), true}};
-      return kinds;
+      quantity.evaluate        = evaluate;
+      quantity.of_displacement = evaluate;
+      quantity.is_static       = true;
     }
 
     /** "DIRECTION at (point)" */
@@ -186,11 +82,11 @@ namespace Nacre
         parse_direction(phrase.up_to("at"), where, constants);
       AssertThrow(!phrase.text.empty(),
                   ExcMessage(where + ": write 'displacement z at (x, y, z)'."));
-      const auto point  = evaluate_point(phrase.text, where, constants);
-      quantity.point    = point;
-      quantity.evaluate = [=](const SolvedShell &shell) {
+      const auto point = evaluate_point(phrase.text, where, constants);
+      quantity.point   = point;
+      set_of_displacement(quantity, [=](const ShellState &shell) {
         return displacement_at(shell, point, direction, where);
-      };
+      });
       quantity.goal.load = [=](const Discretization &discretization) {
         return displacement_functional(discretization, point, direction, where);
       };
@@ -237,6 +133,7 @@ namespace Nacre
                              ": write 'reaction x of EDGE' or 'moment x of "
                              "EDGE', with 'EDGE, point (x, y, z), ...' or "
                              "'all' for several supports."));
+      quantity.is_static = true;
       const auto supports =
         parse_supports(phrase.up_to(is_moment ? "about" : ";"),
                        where,
@@ -292,10 +189,10 @@ namespace Nacre
       PlyQuantity ply_quantity{kind, 0, 0, 0, point, where};
       if (!is_index)
         ply_quantity = parse_ply_quantity(kind, component, ply, point, where);
-      quantity.point    = point;
-      quantity.evaluate = [=](const SolvedShell &shell) {
+      quantity.point = point;
+      set_of_displacement(quantity, [=](const ShellState &shell) {
         return evaluate_ply_quantity(shell, ply_quantity);
-      };
+      });
     }
 
     /** The kinds of parse_ply(). */
@@ -326,20 +223,21 @@ namespace Nacre
       return true;
     }
 
-    /** Those of simple_kinds(); returns whether the words are one. */
+    /** Those of simple_quantities(); returns whether the words are one. */
     bool
     parse_simple(QuantitiesOfInterest::Quantity &quantity,
                  const Phrase                   &phrase,
                  const ExactSolution            &exact_solution)
     {
       const std::string &kind = phrase.text;
-      for (const auto &simple : simple_kinds())
+      for (const auto &simple : simple_quantities())
         if (kind == simple.name)
           {
             AssertThrow(!simple.is_error || exact_solution.is_known(),
                         ExcMessage(phrase.where + ": '" + kind +
                                    "' needs 'Exact solution/Displacement'."));
             quantity.evaluate       = simple.evaluate;
+            quantity.is_static      = simple.is_static;
             quantity.is_error       = simple.is_error;
             quantity.goal.is_energy = (kind == "energy");
             return true;
@@ -358,10 +256,10 @@ namespace Nacre
         parse_state_quantity(phrase, section.state_result_names(), constants);
       if (!of_state)
         return false;
-      quantity.point    = of_state->point;
-      quantity.evaluate = [of_state](const SolvedShell &shell) {
+      quantity.point = of_state->point;
+      set_of_displacement(quantity, [of_state](const ShellState &shell) {
         return evaluate_state_quantity(shell, *of_state);
-      };
+      });
       return true;
     }
 
@@ -369,10 +267,10 @@ namespace Nacre
     parse_at_point(QuantitiesOfInterest::Quantity &quantity,
                    const PointQuantity            &at_point)
     {
-      quantity.point    = at_point.point;
-      quantity.evaluate = [=](const SolvedShell &shell) {
+      quantity.point = at_point.point;
+      set_of_displacement(quantity, [=](const ShellState &shell) {
         return evaluate_point_quantity(shell, at_point);
-      };
+      });
       if (at_point.kind == PointQuantity::Kind::rotation)
         quantity.angle = [=](const Discretization &discretization,
                              const TrilinosWrappers::MPI::Vector &u) {
@@ -380,19 +278,13 @@ namespace Nacre
         };
     }
 
-    /** Fill evaluate and is_error from the words of a kind. */
-    void
-    parse_kind(QuantitiesOfInterest::Quantity &quantity,
-               Phrase                          phrase,
-               const Midsurface               &midsurface,
-               const Cuts                     &cuts,
-               const ExactSolution            &exact_solution,
-               const SectionLaw               &section,
-               const Constants                &constants)
+    /** Those of cracks and cuts; returns whether the words are one. */
+    bool
+    parse_of_cut(QuantitiesOfInterest::Quantity &quantity,
+                 Phrase                         &phrase,
+                 const Cuts                     &cuts,
+                 const Constants                &constants)
     {
-      const std::string kind = phrase.text;
-      if (parse_simple(quantity, phrase, exact_solution))
-        return;
       if (const auto crack = parse_crack_quantity(phrase, cuts, constants))
         {
           quantity.check = [=](const Discretization &mesh) {
@@ -401,9 +293,33 @@ namespace Nacre
           quantity.evaluate = [crack](const SolvedShell &shell) {
             return evaluate_crack_quantity(shell, *crack);
           };
-          return;
+          quantity.is_static = true;
+          return true;
         }
-      for (const auto &simple : simple_kinds())
+      const auto of_cut = parse_cut_quantity(phrase, cuts, constants);
+      if (!of_cut)
+        return false;
+      set_of_displacement(quantity, [of_cut](const ShellState &shell) {
+        return evaluate_cut_quantity(shell, *of_cut);
+      });
+      quantity.is_static = of_cut->kind == CutQuantity::Kind::opening;
+      return true;
+    }
+
+    /** All that isn't a parse_simple(): evaluate, and what is known of it. */
+    void
+    parse_kind(QuantitiesOfInterest::Quantity &quantity,
+               Phrase                          phrase,
+               const Midsurface               &midsurface,
+               const Cuts                     &cuts,
+               const SectionLaw               &section,
+               const Constants                &constants)
+    {
+      const std::string kind = phrase.text;
+      // "energy release rate" begins as "energy" does.
+      if (parse_of_cut(quantity, phrase, cuts, constants))
+        return;
+      for (const auto &simple : simple_quantities())
         AssertThrow(!phrase.take(simple.name),
                     ExcMessage(phrase.where + ": '" + phrase.text +
                                "' after the kind of quantity is not "
@@ -417,14 +333,10 @@ namespace Nacre
         quantity.evaluate = [mode](const SolvedShell &shell) {
           return evaluate_mode_quantity(shell.modes, *mode);
         };
-      else if (const auto of_cut = parse_cut_quantity(phrase, cuts, constants))
-        quantity.evaluate = [=](const SolvedShell &shell) {
-          return evaluate_cut_quantity(shell, *of_cut);
-        };
       else if (const auto extreme = parse_extreme_stress(phrase))
-        quantity.evaluate = [=](const SolvedShell &shell) {
+        set_of_displacement(quantity, [extreme](const ShellState &shell) {
           return evaluate_extreme_stress(shell, *extreme);
-        };
+        });
       else if (is_reaction_moment(phrase))
         parse_reaction(quantity, phrase, true, midsurface, constants);
       else if (const auto at_point = parse_point_quantity(phrase, constants))
@@ -539,7 +451,7 @@ namespace Nacre
       names.push_back(name);
     for (const auto &name : mode_quantity_names())
       names.push_back(name);
-    for (const auto &simple : simple_kinds())
+    for (const auto &simple : simple_quantities())
       names.push_back(simple.name);
     return names;
   }
@@ -581,13 +493,9 @@ namespace Nacre
         AssertThrow(!quantity.reference || *quantity.reference != 0.,
                     ExcMessage(where + ": the reference is 0, so that there "
                                        "is no ratio to it."));
-        parse_kind(quantity,
-                   {Text::trim(definition.substr(0, arrow)), where},
-                   midsurface,
-                   cuts,
-                   exact_solution,
-                   section,
-                   constants);
+        const Phrase phrase{Text::trim(definition.substr(0, arrow)), where};
+        if (!parse_simple(quantity, phrase, exact_solution))
+          parse_kind(quantity, phrase, midsurface, cuts, section, constants);
         quantities.push_back(std::move(quantity));
       }
     return {std::move(quantities), balance_origin};

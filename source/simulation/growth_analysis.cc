@@ -139,7 +139,8 @@ namespace Nacre
         growth_.advance(discretization, growth_.n_steps(), true);
         if (growth_.has_tips())
           return shell.release_mesh();
-        log_.progress() << "growth ends: no tip is left inside the surface"
+        log_.progress() << "growth ends: this step leaves no tip inside the "
+                           "surface, and isn't solved or counted"
                         << std::endl;
       }
     recorder.add(recorder.make_row(factored.solved(), solution.record()),

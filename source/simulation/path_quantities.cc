@@ -23,6 +23,115 @@ namespace Nacre
           return &quantity;
       return nullptr;
     }
+
+    using Quantity = QuantitiesOfInterest::Quantity;
+    using Vector   = ControlledQuantity::Vector;
+    using Value    = ControlledQuantity::Value;
+    using Evaluate = std::function<Value(const Vector &, const double)>;
+
+    Evaluate
+    displacement(const Quantity &quantity, const DiscreteShell &shell)
+    {
+      return
+        [gradient = quantity.goal.load(
+           shell.discretization())](const Vector &u, const double /*time*/) {
+          return ControlledQuantity::with_gradient(gradient * u, gradient);
+        };
+    }
+
+    Evaluate
+    rotation(const Quantity      &quantity,
+             const DiscreteShell &shell,
+             const ShellSystem   &system)
+    {
+      return [angle = quantity.angle, &shell, &system](const Vector &u,
+                                                       const double /*time*/) {
+        const Angle found =
+          angle(shell.discretization(), system.with_ghosts(u));
+        return ControlledQuantity::with_gradient(found.value, found.gradient);
+      };
+    }
+
+    Evaluate
+    reaction(const Quantity      &quantity,
+             const DiscreteShell &shell,
+             ShellSystem         &system)
+    {
+      const double dt = shell.problem().path.rate_step();
+      return
+        [v = quantity.goal.reaction(shell.discretization(), shell.conditions()),
+         dt,
+         &system](const Vector &u, const double time) {
+          const auto work = system.virtual_work(u, v, time, dt);
+          return ControlledQuantity::with_gradient(work.value,
+                                                   work.gradient,
+                                                   work.rate);
+        };
+    }
+
+    /** States of a section as a step leaves them; then as they were. */
+    class StatesAtEnd
+    {
+    public:
+      StatesAtEnd(const Assembly     &assembly,
+                  const Vector       &u,
+                  const ShellActions &actions)
+        : states_(assembly.section_states())
+        , start_(states_)
+      {
+        assembly.update_section_states(u, actions);
+      }
+
+      ~StatesAtEnd()
+      {
+        states_ = start_;
+      }
+
+    private:
+      SectionStates      &states_;
+      const SectionStates start_;
+    };
+
+    /** At the ghosted displacement @p u. */
+    double
+    value_at_end(const Quantity      &quantity,
+                 const DiscreteShell &shell,
+                 const Vector        &u,
+                 const double         time)
+    {
+      const auto        &model    = shell.problem().model;
+      const auto        &assembly = shell.assembly();
+      const ShellActions actions  = assembly.actions(model.at(time));
+      const StatesAtEnd  states(assembly, u, actions);
+      const ShellState   state{shell.discretization(),
+                             model,
+                             u,
+                             actions.loads,
+                             &assembly.section_states()};
+      if (quantity.of_displacement)
+        return quantity.of_displacement(state);
+      Vector     residual = shell.owned_vector();
+      const auto energies = assembly.residual(u, actions, residual);
+      return quantity.evaluate(
+        {state, assembly, actions, shell.conditions(), residual, energies});
+    }
+
+    Evaluate
+    other_quantity(const Quantity      &quantity,
+                   const DiscreteShell &shell,
+                   const ShellSystem   &system)
+    {
+      const auto value = [quantity, &shell, &system](const Vector &u,
+                                                     const double  time) {
+        return value_at_end(quantity, shell, system.with_ghosts(u), time);
+      };
+      return [value,
+              reach = 1e-3 * system.thickness(),
+              dt    = shell.problem().path.rate_step()](const Vector &u,
+                                                     const double  time) {
+        return ControlledQuantity::by_differences(value, u, time, reach, dt);
+      };
+    }
   } // namespace
 
   void
@@ -41,14 +150,14 @@ namespace Nacre
                                                   "quantity",
                                                   path.control,
                                                   names)));
-        AssertThrow(control->goal.load || control->goal.reaction ||
-                      control->angle,
+        AssertThrow(control->is_static,
                     ExcMessage("Analysis/Control: the quantity '" +
                                path.control +
-                               "' is neither a displacement nor a rotation at "
-                               "a point, nor a reaction; choose one like "
-                               "'displacement z at (x, y, z)' or 'reaction z "
-                               "of EDGE', or 'Type = arc length'."));
+                               "' is none that a displacement makes, as "
+                               "'displacement z at (x, y, z)', 'moment 11 at "
+                               "(x, y, z)', 'reaction z of EDGE' or "
+                               "'opening of CUT at (x, y, z)' are; choose "
+                               "one of these, or 'Type = arc length'."));
         AssertThrow(!control->angle || kinematics != KinematicsModel::linear,
                     ExcMessage("Analysis/Control: rotations are controlled "
                                "with Discretization/Kinematics = finite or "
@@ -66,47 +175,30 @@ namespace Nacre
   }
 
   ControlledQuantity
-  controlled_quantity(const PathParameters         &path,
-                      const QuantitiesOfInterest   &quantities,
-                      ShellSystem                  &system,
-                      const Discretization         &discretization,
-                      const DisplacementConditions &conditions)
+  controlled_quantity(const QuantitiesOfInterest &quantities,
+                      const DiscreteShell        &shell,
+                      ShellSystem                &system)
   {
-    using Vector         = ControlledQuantity::Vector;
-    using Value          = ControlledQuantity::Value;
+    const auto &path     = shell.problem().path;
     const auto *quantity = find_quantity(quantities, path.control);
     Assert(quantity != nullptr, ExcInternalError());
     ControlledQuantity control;
-    if (quantity->angle)
+    if (quantity->goal.load)
+      control.evaluate = displacement(*quantity, shell);
+    else if (quantity->angle)
       {
+        control.evaluate = rotation(*quantity, shell, system);
         control.period   = 2. * numbers::PI;
-        control.evaluate = [&system,
-                            &discretization,
-                            angle = quantity->angle](const Vector &u,
-                                                     const double) -> Value {
-          const Angle found = angle(discretization, system.with_ghosts(u));
-          return {found.value, found.gradient};
-        };
-        control.evaluate(system.owned_vector(), 0.);
-      }
-    else if (quantity->goal.reaction)
-      {
-        // Forces know round-off of the membrane's.
-        control.accuracy = 1e-6;
-        control.evaluate =
-          [&system,
-           v  = quantity->goal.reaction(discretization, conditions),
-           dt = path.rate_step()](const Vector &u, const double time) -> Value {
-          const auto work = system.virtual_work(u, v, time, dt);
-          return {work.value, work.gradient, work.rate};
-        };
       }
     else
-      control.evaluate = [gradient = quantity->goal.load(
-                            discretization)](const Vector &u,
-                                             const double) -> Value {
-        return {gradient * u, gradient};
-      };
+      {
+        control.evaluate = quantity->goal.reaction ?
+                             reaction(*quantity, shell, system) :
+                             other_quantity(*quantity, shell, system);
+        // Forces know round-off of the membrane's.
+        control.accuracy = 1e-6;
+      }
+    control.evaluate(system.owned_vector(), 0.);
     return control;
   }
 

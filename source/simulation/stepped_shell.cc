@@ -24,11 +24,7 @@ namespace Nacre
                           quantities,
                           problem.model.kinematics.model);
     if (problem.path.controls_displacement())
-      path.curve()->control(controlled_quantity(problem.path,
-                                                quantities,
-                                                system,
-                                                shell.discretization(),
-                                                shell.conditions()));
+      path.curve()->control(controlled_quantity(quantities, shell, system));
   }
 
   namespace

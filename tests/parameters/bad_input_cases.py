@@ -108,6 +108,8 @@ case("stop_where_form", ["Analysis/Stop where", "'w = 3'", "<"],
      {**ARC, "Analysis/Stop where": "w = 3"})
 case("stop_where_of_linear", ["Analysis/Stop where", "no path"],
      {"Analysis/Stop where": "w < 3"})
+case("thickness_huge", ["Section", "bending stiffness", "units"],
+     {"Section/Thickness": "1e300"})
 case("control_of_static", ["Analysis/Control", "displacement control"],
      {"Analysis/Type": "static", "Analysis/Control": "w"})
 case("control_missing", ["Analysis/Control", "Control values"],

@@ -21,6 +21,7 @@ HINGED = str(BENCHMARKS / "path_arch_hinged.prm")
 CIRCLE = str(BENCHMARKS / "finite_circle.prm")
 STRIP = str(BENCHMARKS / "arc_length_elastica.prm")
 CANTILEVER = str(BENCHMARKS / "cantilever_elastica.prm")
+METAL = str(BENCHMARKS.parent / "materials/plastic_plate.prm")
 # Semi-analytical: the largest and the smallest load, of 60.
 LARGEST, SMALLEST = 52.580408 / 60., 46.188430 / 60.
 NO_FIELDS = {"Study__Write_VTU": "false"}
@@ -136,8 +137,8 @@ def control(folder):
     folder.fail(ARCH, "--check", **dict(pushed, Analysis__Control="v"),
                 expect=("Analysis/Control", "'v'", "w"))
     folder.fail(ARCH, "--check", **pushed,
-                Quantities__Quantities="w = energy",
-                expect=("Analysis/Control", "neither", "arc length"))
+                Quantities__Quantities="w = kinetic energy",
+                expect=("Analysis/Control", "none that", "arc length"))
 
 
 @test(1, 2)
@@ -171,6 +172,53 @@ def control_of_a_rotation(folder):
     turned["Quantities__Quantities"] = "a = rotation z at (L, b/2, 0)"
     folder.fail(CIRCLE, "--check", **turned,
                 expect=("'a'", "along the surface"))
+
+
+@test(1, 2)
+def control_of_results(folder):
+    """The moment at the arch's crown rises through both limit points. The size
+    of a stress has a kink at rest, an energy no slope. A metal's moment is that
+    of the displacement, by the same steps."""
+    arch = dict(COARSE, Quantities__Quantities="m = moment 11 at (0, b/2, R); "
+                "s = von Mises stress top at (0, b/2, R); U = energy",
+                Analysis__Type="displacement control", Analysis__Control="m",
+                Analysis__Control_values="-40" if folder.ranks == 1 else "-20",
+                Analysis__Control_step="10", Analysis__Maximum_time_step="0.1")
+    folder.succeed(ARCH, **arch)
+    rows = folder.rows("case_path.csv")
+    for k, row in enumerate(rows[1:], 1):
+        check_near("m as asked", row["m"], -10 * k, 1e-6)
+        # As for displacements: a good slope
+        check(int(row["iterations"]) <= 7, f"slow: {row}")
+    if folder.ranks > 1:
+        return
+    points = folder.rows("case_points.csv")
+    check(len(points) == 2, f"points {points}")
+    for point, expected in zip(points, (LARGEST, SMALLEST)):
+        check_near(point["kind"], point["time"], expected, 1e-4)
+    size = float(rows[-1]["s"])
+    folder.succeed(ARCH, **dict(arch, Analysis__Control="s",
+                                Analysis__Control_values=size,
+                                Analysis__Control_step=size / 3))
+    check_near("t", folder.values("case_path.csv", "time")[-1],
+               float(rows[-1]["time"]), 1e-6)
+    folder.fail(ARCH, **dict(arch, Analysis__Control="U"),
+                expect=("doesn't change", "Analysis/Control", "Start from"))
+    metal = dict(COARSE, Quantities__Quantities="w = displacement z at (0, 0, "
+                 "0); m = moment 11 at (0.2, 0, 0)", Study__Degrees="2",
+                 Analysis__Control="m", Analysis__Control_step="0.45*M_p",
+                 Analysis__Control_values="0.9*M_p",
+                 Analysis__Maximum_steps="2")
+    folder.succeed(METAL, **metal)
+    rows = folder.rows("case_path.csv")
+    check_near("a metal's m", rows[-1]["m"], 0.9e-10, 1e-6)
+    w = [float(row["w"]) for row in rows[1:]]
+    check(w[-1] > 2.1 * w[-2], f"it doesn't yield: {w}")
+    metal.update(Analysis__Control="w", Analysis__Control_step=w[-1],
+                 Analysis__Control_values=", ".join(map(repr, w)))
+    folder.succeed(METAL, **metal)
+    check_near("its t", folder.values("case_path.csv", "time")[-1],
+               float(rows[-1]["time"]), 1e-5)
 
 
 @test(1)

@@ -281,6 +281,52 @@ check_ring()
              ring + Settings{"Loads/Pressure follows=false"}});
 }
 
+/** N_xt, e-5, of a whole cylinder: its waves wind around it. */
+void
+check_torsion()
+{
+  check_row({"cylinder, torsion",
+             "benchmarks/buckling_cylinder",
+             3e-3,
+             {1.6505101},
+             with_cells("4, 16") + with_force("0, 0, 1e-5") +
+               Settings{"Analysis/Range of modes=1.64, 1.66"}});
+}
+
+/** (W/h)^2 eps of the modes that are even across, in a quarter. */
+void
+check_stretched_sheet()
+{
+  for (const auto &[nu, critical] :
+       std::vector<std::pair<std::string, double>>{{"0.3", 5.132},
+                                                   {"0.49999", 2.012}})
+    check_row({"stretched sheet, nu = " + nu,
+               "benchmarks/buckling_strip",
+               1e-2,
+               {critical},
+               with_cells("6, 5") +
+                 with_edges("left: x = -eps*L/2, y = 0, z = 0, rotation = 0; "
+                            "right, bottom: symmetry") +
+                 Settings{"Constants=L = 2, W = 1, eps = 1e-2",
+                          "Mid-surface/plate/Size=L/2, W/2",
+                          "Mid-surface/Grading u=s^2",
+                          "Section/Thickness=1e-3",
+                          "Section/Poisson's ratio=" + nu,
+                          "Loads/Edge forces="}});
+}
+
+/** p/p_cl of the odd harmonics l = 17, in an octant. */
+void
+check_sphere()
+{
+  check_row({"sphere, l = 17",
+             "benchmarks/buckling_sphere",
+             1e-3,
+             {.9966094},
+             with_cells("4") + with_edges("x=0, y=0, z=0: diaphragm") +
+               Settings{"Analysis/Range of modes=0.995, 0.9973"}});
+}
+
 /** N a^2/(E2 h^3) of plates, and N, p of cylinders with diaphragms. */
 void
 check_laminates()
@@ -359,6 +405,9 @@ main(int argc, char *argv[])
   check_diaphragms();
   check_prestress();
   check_ring();
+  check_torsion();
+  check_stretched_sheet();
+  check_sphere();
   check_laminates();
   return n_failures > 0;
 }

@@ -68,9 +68,10 @@ namespace Nacre
     go_along_mode(const Vector &mode);
 
     /**
-     * Solve for the end of the step. Fails as NewtonSolver does, and if the
-     * curve turns by more than 60 degrees within the step, which may have
-     * jumped to another curve then.
+     * Solve for the end of the step. Fails as NewtonSolver does, if the
+     * quantity doesn't change along the curve, and if the curve turns by more
+     * than 60 degrees within the step, which may have jumped to another curve
+     * then.
      */
     NewtonSolver::Result
     solve(const NewtonSolver::Parameters &parameters);
@@ -117,11 +118,15 @@ namespace Nacre
     linearise(const Vector &u, Vector &du);
 
     /**
-     * What normal . du shall be at @p u: the distance that is left. Sets the
-     * normal to Q,u.
+     * By how much Q, or normal . u, must still change at @p u. Sets what is
+     * found there.
      */
     double
     distance_left(const Vector &u);
+
+    /** Why the end of the step can't be found along the curve. */
+    StepFailure
+    no_tangent() const;
 
     /** The plane of the tangent, whose velocity is du/dt. */
     void
@@ -136,9 +141,9 @@ namespace Nacre
     /** With the value that it shall have. */
     const ControlledQuantity *quantity_ = nullptr;
     double                    value_    = 0.;
-    /** Q,t */
-    double quantity_rate_ = 0.;
-    /** The plane, or Q,u; the normal is empty before it is known. */
+    /** Q or normal . (u - u_0) at the last u. */
+    ControlledQuantity::Value found_;
+    /** Of the plane; empty before it is known. */
     Vector normal_;
     double distance_ = 0.;
     Vector u_;

@@ -194,8 +194,8 @@ namespace Nacre
     void
     send_to_ghosts(const Discretization &discretization);
 
-    const unsigned int n_variables_;
-    Entries            states_;
+    unsigned int n_variables_;
+    Entries      states_;
     /** At the end of the step, during update(). */
     Entries next_;
     bool    is_updating_ = false;

@@ -10,7 +10,7 @@
 
 namespace Nacre
 {
-  struct SolvedShell;
+  struct ShellState;
 
   /** What a ply of a laminate feels at a point. */
   struct PlyQuantity
@@ -59,7 +59,7 @@ namespace Nacre
    * or no strengths for an index.
    */
   double
-  evaluate_ply_quantity(const SolvedShell &shell, const PlyQuantity &quantity);
+  evaluate_ply_quantity(const ShellState &state, const PlyQuantity &quantity);
 } // namespace Nacre
 
 #endif

@@ -54,6 +54,14 @@ namespace Nacre
       bool is_error = false;
       /** The value; collective. */
       std::function<double(const SolvedShell &)> evaluate;
+      /**
+       * Whether a displacement at a time determines it, with its forces and
+       * energies and what the section remembers then: displacement control can
+       * prescribe it.
+       */
+      bool is_static = false;
+      /** The same value where no force is needed; else empty. */
+      std::function<double(const ShellState &)> of_displacement;
       /** Of the mid-surface, if the quantity is taken at one (length). */
       std::optional<Point<3>> point;
       /** What throws before a solve if it can't be taken; may be empty. */

@@ -7,6 +7,7 @@
 #include <nacre/analysis/controlled_quantity.h>
 #include <nacre/analysis/path_state.h>
 #include <nacre/postprocess/quantities_of_interest.h>
+#include <nacre/simulation/discrete_shell.h>
 
 #include <string>
 
@@ -14,8 +15,8 @@ namespace Nacre
 {
   /**
    * Throw if `Analysis/Stop where` or `Control` names a quantity that isn't
-   * among @p quantities, or `Control` one whose gradient isn't known under
-   * these @p kinematics.
+   * among @p quantities, or `Control` one that no displacement makes, or, a
+   * rotation, none of these @p kinematics.
    */
   void
   check_path_quantities(const PathParameters       &path,
@@ -23,15 +24,18 @@ namespace Nacre
                         const KinematicsModel       kinematics);
 
   /**
-   * The quantity that `Control` names, of a shell that must live as long.
-   * Throws if it can't be taken there. Collective.
+   * The quantity that `Control` names, of a @p shell with its @p system that
+   * must live as long. The derivatives of displacements, rotations and
+   * reactions are exact, those of all others differences
+   * (ControlledQuantity::by_differences()) over a thousandth of the thickness.
+   * Where the section remembers, the quantity is that of the states that the
+   * displacement would leave at the end of a step. Throws if it can't be taken
+   * there. Collective.
    */
   ControlledQuantity
-  controlled_quantity(const PathParameters         &path,
-                      const QuantitiesOfInterest   &quantities,
-                      ShellSystem                  &system,
-                      const Discretization         &discretization,
-                      const DisplacementConditions &conditions);
+  controlled_quantity(const QuantitiesOfInterest &quantities,
+                      const DiscreteShell        &shell,
+                      ShellSystem                &system);
 
   /**
    * The first bound of `Stop where` that holds at @p state of the @p shell, in

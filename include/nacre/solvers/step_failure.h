@@ -18,6 +18,8 @@ namespace Nacre
     not_finite,
     /** The tangent is singular to working precision. */
     singular_tangent,
+    /** What displacement control prescribes isn't changed by the loads. */
+    constant_quantity,
     /** The iteration has converged to an impossible deformation. */
     impossible_deformation,
     /** Dynamic relaxation finds no stable state. */
