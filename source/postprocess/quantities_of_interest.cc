@@ -393,7 +393,8 @@ namespace Nacre
       const std::string kind = phrase.text;
       if (parse_simple(quantity, phrase, exact_solution))
         return;
-      if (const auto crack = parse_crack_quantity(phrase, cuts, constants))
+      if (const auto crack =
+            parse_crack_quantity(phrase, cuts, section, constants))
         {
           quantity.check = [=](const Discretization &mesh) {
             find_tip_of(mesh, cuts, *crack);
