@@ -200,23 +200,17 @@ def held(rows):
     check(n_pairs >= 3, f"{n_pairs} pairs")
 
 
-def released(rows, tolerance=1e-3):
-    """At held grips the step of growth releases G, that of a long strip."""
+def pure_shear(rows):
+    """W H of the strip far ahead (Rivlin and Thomas 1953); a step at held grips
+    releases it."""
     before, after = rows[-2:]
     check(before["step"] == 0. and after["step"] == 1., "a step of growth")
     check_near("time", after["time"], before["time"], 0)
     rate = (before["U"] - after["U"]) / (after["length_crack"] -
                                          before["length_crack"])
-    for row in (before, after):
-        for name in ("G_crack_end", "G"):
-            check_near(f"released over {name}", rate / row[name], 1.,
-                       tolerance)
-
-
-def pure_shear(rows):
-    """W H of the strip far ahead (Rivlin and Thomas 1953)."""
-    released(rows)
     for row in rows:
+        if row["time"] == 1.:
+            check_near("released over G", rate / row["G_crack_end"], 1., 1e-3)
         stretch = 1. + .5 * row["time"]
         energy = .5 * .1 * (stretch - 1. / stretch)**2
         check_near(f"G/(W H) at {stretch:g}", row["G"] / energy, 1., 3e-3)
@@ -295,9 +289,6 @@ PULLED = {**UNIT, "Mid-surface/Subdivisions": "11",
           "Boundary conditions/Edges": "v=0: y = 0, z = 0; v=1: y = 0.15*t, "
           "z = 0", "Growth/Step": "2 cells"}
 
-RISING = {"Discretization/Kinematics": "linear", "Constants":
-          "L = 3, b = 1, h0 = 0.2, w = 0, d = 0.3", "Growth/Toughness":
-          "0.005", "Analysis/Time step": "1"}
 HELD = {"Analysis/Type": "displacement control", "Analysis/Control": "w",
         "Analysis/Control values": "9e-4", "Analysis/Control step": "1.5e-4",
         "Analysis/Maximum steps": "20", "Growth/Maximum steps": "3",
@@ -330,8 +321,6 @@ CASES = {
     "bent": ("starting_cracks.prm", BENT, (1,), bent),
     "pure_shear": ("../../tests/growth/rubber_strip.prm", {}, (1,),
                    pure_shear),
-    "bent_rubber": ("../../tests/growth/rubber_strip.prm", RISING, (1,),
-                    lambda rows: released(rows, .01)),
     "ring": ("../../tests/growth/rubber_ring.prm", {}, (1,), ring),
     "yielding": ("../../tests/growth/bent_metal.prm", {}, (1,), yielding),
     "pulled": ("starting_cracks.prm", PULLED, (1, 2, 3), pulled),
