@@ -220,9 +220,18 @@ namespace Nacre
             // Not a time of the step's equation, but of its results: loads
             // must be defined there.
             system_.set_load_time(state.time + dt);
-            system_.work(attempt.motion.u, attempt.motion.u);
+            const double work =
+              system_.work(attempt.motion.u, attempt.motion.u);
+            attempt.result.converged = std::isfinite(work);
           }
-        attempt.check(system_, parameters_.is_dynamic(), &state);
+        if (attempt.result.converged)
+          attempt.check(system_, parameters_.is_dynamic(), &state);
+        else
+          {
+            attempt.result.kind = FailureKind::not_finite;
+            attempt.result.reason =
+              "the internal forces at its end are infinite or not a number";
+          }
       }
     const bool unstable =
       !attempt.result.converged || attempt.result.last.n_negative_pivots > 0;

@@ -29,7 +29,10 @@ namespace Nacre
       answer.stress[v] = (v < 2 ? mu : 0.) - pressure * inverse[v];
     // 2 p (C^-1 x C^-1 + the symmetric fourth-order C^-1)
     answer.tangent = 4. * pressure * isotropic_stiffness(inverse, 0.5);
-    answer.energy  = 0.5 * mu * (C_11 + C_22 + 1. / det - 3.);
+    // mu/2 (tr C + 1/det C - 3), without differences of large numbers
+    const double t = strain[0] + strain[1];
+    const double d = strain[0] * strain[1] - 0.25 * C_12 * C_12;
+    answer.energy  = 2. * mu * (t * t + 2. * t * d - d) / det;
     return answer;
   }
 } // namespace Nacre

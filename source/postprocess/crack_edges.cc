@@ -93,7 +93,8 @@ namespace Nacre
       moment                = side.sigma * (dyad * response.moment);
       X_moment              = side.sigma *
                  (D_dyad * ShellStrain::bending(frame, X_s.first, X_s.second));
-      stiffness = dyad * D_dyad;
+      stiffness =
+        dyad * (section.law.stiffness(frame, at.point).bending * dyad);
       if (is_linear)
         return;
       const std::array<Vector3, 2> phi = {

@@ -53,9 +53,10 @@ namespace Nacre
   }
 
   std::optional<CrackQuantity>
-  parse_crack_quantity(QuantityPhrase  &phrase,
-                       const Cuts      &cuts,
-                       const Constants &constants)
+  parse_crack_quantity(QuantityPhrase   &phrase,
+                       const Cuts       &cuts,
+                       const SectionLaw &section,
+                       const Constants  &constants)
   {
     const auto &kinds = selection(CrackQuantity::Kind());
     const auto  found =
@@ -65,7 +66,13 @@ namespace Nacre
     if (found == kinds.end())
       return {};
     CrackQuantity quantity{found->first};
-    quantity.where         = phrase.where;
+    quantity.where = phrase.where;
+    EnergyRelease::check_law(section, phrase.where + ":");
+    AssertThrow(section.is_linear() ||
+                  quantity.kind == CrackQuantity::Kind::energy_release_rate,
+                ExcMessage(phrase.where + ": '" + found->second +
+                           "' is of linear sections, and the law of this one "
+                           "isn't linear; it has an 'energy release rate'."));
     const std::string form = phrase.where + ": write '" + found->second +
                              " of CUT begin' or '" + found->second +
                              " of CUT end' of a cut, '" + found->second +

@@ -117,16 +117,21 @@ namespace Nacre
   }
 
   void
+  EnergyRelease::check_law(const SectionLaw &section, const std::string &where)
+  {
+    AssertThrow(section.n_state_variables() == 0,
+                ExcMessage(where + " the section's energy depends on its path "
+                                   "and has no release rate."));
+  }
+
+  void
   EnergyRelease::check_model() const
   {
     AssertThrow(shell_.modes == nullptr,
                 ExcMessage(where_ + "energy release rates and stress "
                                     "intensity factors are those of statics "
                                     "and of motions; modes have no size."));
-    AssertThrow(shell_.model.section->is_linear(),
-                ExcMessage(where_ +
-                           "the law of the section isn't linear; these "
-                           "quantities are for linear ones only."));
+    check_law(*shell_.model.section, where_);
     AssertThrow(shell_.model.foundation.is_zero(),
                 ExcMessage(where_ + "lies a foundation, whose energy these "
                                     "quantities don't know."));
@@ -533,6 +538,9 @@ namespace Nacre
       add_lips(fields, sums);
     });
     Utilities::MPI::sum(sums, discretization.communicator(), sums);
+    AssertThrow(std::isfinite(sums[0]),
+                ExcMessage(where_ + "a layer is pressed to nothing and has no "
+                                    "finite energy; take finer cells."));
     return sums;
   }
 
@@ -582,10 +590,10 @@ namespace Nacre
   {
     const auto plate = this->plate();
     AssertThrow(plate.has_value(),
-                ExcMessage(where_ + "the section isn't homogeneous and "
+                ExcMessage(where_ + "the section isn't linear, homogeneous and "
                                     "isotropic, as stress intensity factors "
                                     "take it; the energy release rate is "
-                                    "known for all sections."));
+                                    "known for all elastic sections."));
     return *plate;
   }
 } // namespace Nacre

@@ -228,6 +228,15 @@ namespace Nacre
     }
   } // namespace
 
+  void
+  check_stress(const double stress)
+  {
+    AssertThrow(std::isfinite(stress),
+                ExcMessage("Growth/Criterion: where 'strength' looks, a layer "
+                           "is pressed to nothing and has no finite stress; "
+                           "take finer cells."));
+  }
+
   std::vector<LineEnd>
   find_line_ends(const Discretization             &discretization,
                  const std::vector<SurfaceLine>   &lines,
@@ -280,6 +289,8 @@ namespace Nacre
     run_on_all_ranks(communicator, [&]() { points.add(nearest, mine); });
     std::vector<double> sums(mine.size());
     Utilities::MPI::sum(mine, communicator, sums);
+    for (const double s : sums)
+      check_stress(s);
 
     const QGauss<1>                              rule(n_line_points);
     std::vector<std::array<LineStress, n_faces>> means(lines.size());

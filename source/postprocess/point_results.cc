@@ -39,7 +39,14 @@ namespace Nacre
   PointResults::principal(const Tensor3 &T) const
   {
     std::array<Principal, dim> result;
-    const auto                 pairs = eigenvectors(in_axes(T));
+    const PlaneTensor          plane = in_axes(T);
+    if (!std::isfinite(plane.norm()))
+      {
+        // Strains of no body, as a law may answer them
+        result.fill({plane.norm(), Vector3()});
+        return result;
+      }
+    const auto pairs = eigenvectors(plane);
     for (unsigned int i = 0; i < dim; ++i)
       result[i] = {pairs[i].first,
                    pairs[i].second[0] * e[0] + pairs[i].second[1] * e[1]};

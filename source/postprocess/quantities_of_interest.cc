@@ -283,9 +283,11 @@ namespace Nacre
     parse_of_cut(QuantitiesOfInterest::Quantity &quantity,
                  Phrase                         &phrase,
                  const Cuts                     &cuts,
+                 const SectionLaw               &section,
                  const Constants                &constants)
     {
-      if (const auto crack = parse_crack_quantity(phrase, cuts, constants))
+      if (const auto crack =
+            parse_crack_quantity(phrase, cuts, section, constants))
         {
           quantity.check = [=](const Discretization &mesh) {
             find_tip_of(mesh, cuts, *crack);
@@ -317,7 +319,7 @@ namespace Nacre
     {
       const std::string kind = phrase.text;
       // "energy release rate" begins as "energy" does.
-      if (parse_of_cut(quantity, phrase, cuts, constants))
+      if (parse_of_cut(quantity, phrase, cuts, section, constants))
         return;
       for (const auto &simple : simple_quantities())
         AssertThrow(!phrase.take(simple.name),

@@ -157,7 +157,7 @@ namespace Nacre
       for (unsigned int i = 0; i < dim; ++i)
         list.push_back(scalar(name + "_" + std::to_string(i + 1) + ending,
                               [=](const PointResults &s) {
-                                return eigenvalues(s.in_axes(value(s)))[i];
+                                return s.principal(value(s))[i].value;
                               }));
     }
 

@@ -129,8 +129,9 @@ namespace Nacre
                   "straight: as the cut ends; or a vector "
                   "'dx, dy, dz', expressions of x, y, z and t, of which the "
                   "part along the surface counts. default: hoop stress for the "
-                  "criteria strength and, in linear kinematics, energy "
-                  "release rate, else straight. Units of the vector: none.");
+                  "criteria strength and, in linear kinematics of linear "
+                  "sections, energy release rate, else straight. Units of the "
+                  "vector: none.");
     add_parameter("Step",
                   step_text_,
                   "How far a tip advances at once: 'N cells', in edges of the "

@@ -191,7 +191,8 @@ namespace Nacre
       growth_.make(constants,
                    model.cuts,
                    !problem.path.is_linear(),
-                   model.kinematics.model == KinematicsModel::linear);
+                   model.kinematics.model == KinematicsModel::linear &&
+                     model.section->is_linear());
     problem.n_refinements = shell_case.n_refinements;
     problem.solver        = solver_.values;
     problem.assembly      = discretization_.assembly();
@@ -249,6 +250,42 @@ namespace Nacre
                            "mass behind; choose 'closed'."));
   }
 
+  namespace
+  {
+    /** What a section with memory doesn't know. */
+    void
+    check_memory(const ShellProblem &problem)
+    {
+      const PathParameters &path   = problem.path;
+      const Growth         &growth = problem.growth;
+      AssertThrow(path.start_from.empty(),
+                  ExcMessage("Analysis/Start from: what this section remembers "
+                             "doesn't come from another run; leave it empty, "
+                             "or go on with --restart."));
+      AssertThrow(!path.branches.has_several(),
+                  ExcMessage("Analysis/Switch branch: this section remembers "
+                             "one path; name a single branch."));
+      AssertThrow(problem.solver.type != SolverType::multigrid,
+                  ExcMessage("Linear solver/Solver: the coarse levels of "
+                             "'multigrid' don't know what this section "
+                             "remembers; choose auto or direct."));
+      if (!growth.is_on())
+        return;
+      AssertThrow(!growth.is_by_energy(),
+                  ExcMessage("Growth/Criterion: what this section takes up "
+                             "depends on its path, so that it has no 'energy "
+                             "release rate'; choose 'strength' or "
+                             "'prescribed'."));
+      AssertThrow(growth.is_prescribed() ||
+                    path.type != AnalysisType::arc_length,
+                  ExcMessage("Growth/Criterion: 'Analysis/Type = arc length' "
+                             "goes back to where 'strength' is just reached, "
+                             "and this section remembers that it was beyond; "
+                             "choose static or displacement control, or "
+                             "'prescribed'."));
+    }
+  } // namespace
+
   void
   ProblemParameters::check_section(const ShellProblem &problem)
   {
@@ -270,24 +307,15 @@ namespace Nacre
                 ExcMessage("Cuts/Tips: '" + name_of(problem.model.cuts.tips) +
                            "' is for linear sections only," + is_not +
                            "; choose closed."));
-    AssertThrow(!problem.growth.is_on() || problem.growth.is_prescribed(),
-                ExcMessage("Growth/Criterion: '" +
-                           name_of(problem.growth.criterion) +
-                           "' is for linear sections only," + is_not +
-                           "; choose prescribed."));
-    if (section.n_state_variables() == 0)
-      return;
-    AssertThrow(path.start_from.empty(),
-                ExcMessage("Analysis/Start from: what this section remembers "
-                           "doesn't come from another run; leave it empty, or "
-                           "go on with --restart."));
-    AssertThrow(!path.branches.has_several(),
-                ExcMessage("Analysis/Switch branch: this section remembers one "
-                           "path; name a single branch."));
-    AssertThrow(problem.solver.type != SolverType::multigrid,
-                ExcMessage("Linear solver/Solver: the coarse levels of "
-                           "'multigrid' don't know what this section "
-                           "remembers; choose auto or direct."));
+    if (section.n_state_variables() > 0)
+      check_memory(problem);
+    const Growth &growth = problem.growth;
+    AssertThrow(!growth.is_on() || !growth.is_by_energy() ||
+                  growth.direction != GrowthDirection::hoop_stress,
+                ExcMessage("Growth/Direction: 'hoop stress' takes the stress "
+                           "intensity factors of linear sections," +
+                           is_not +
+                           "; choose 'straight' or a vector 'dx, dy, dz'."));
   }
 
   namespace

@@ -59,6 +59,7 @@ namespace Nacre
       for (const auto &stress : r.stress)
         {
           const auto s = r.principal(stress);
+          check_stress(s[0].value);
           if (s[0].value <= (1. + equal_stress) * place.stress)
             continue;
           // Equal tensions on all sides have no direction of their own.

@@ -13,6 +13,20 @@ namespace Nacre
     : parameters_(parameters)
   {}
 
+  namespace
+  {
+    /** Whether there are forces at u + du. */
+    bool
+    is_possible(const NewtonSolver::Vector &u,
+                const NewtonSolver::Vector &du,
+                const NewtonSolver::Work   &work)
+    {
+      NewtonSolver::Vector trial(u);
+      trial += du;
+      return std::isfinite(work(trial, du));
+    }
+  } // namespace
+
   double
   NewtonSolver::search(const Vector &u,
                        const Vector &du,
@@ -77,7 +91,8 @@ namespace Nacre
             return result;
           }
         double factor = parameters_.damping;
-        if (work && k > 0 && energy > result.last.round_off_work)
+        if (work && energy > result.last.round_off_work &&
+            (k > 0 || !is_possible(u, du, work)))
           factor *= search(u, du, result.last.work, work);
         u.add(factor, du);
 

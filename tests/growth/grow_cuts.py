@@ -200,6 +200,78 @@ def held(rows):
     check(n_pairs >= 3, f"{n_pairs} pairs")
 
 
+def pure_shear(rows):
+    """W H of the strip far ahead (Rivlin and Thomas 1953); a step at held grips
+    releases it."""
+    before, after = rows[-2:]
+    check(before["step"] == 0. and after["step"] == 1., "a step of growth")
+    check_near("time", after["time"], before["time"], 0)
+    rate = (before["U"] - after["U"]) / (after["length_crack"] -
+                                         before["length_crack"])
+    for row in rows:
+        if row["time"] == 1.:
+            check_near("released over G", rate / row["G_crack_end"], 1., 1e-3)
+        stretch = 1. + .5 * row["time"]
+        energy = .5 * .1 * (stretch - 1. / stretch)**2
+        check_near(f"G/(W H) at {stretch:g}", row["G"] / energy, 1., 3e-3)
+
+
+def stretched_ring(stretch, n_steps=100):
+    """The mean over d = 0.5 of the hoop stress S/mu of a neo-Hookean ring, 1 <
+    R < 3, whose outer edge is pulled to the stretch: d(P_1)/dR = (P_2 -
+    P_1)/R by Runge and Kutta, the stretch inside by the secant method."""
+    size = 2. / n_steps
+
+    def slope(R, radial, hoop):
+        rise = (radial - hoop) / R
+        P_1, P_2 = (x - 1. / (x * radial * hoop)**2 * x
+                    for x in (radial, hoop))
+        return (((P_2 - P_1) / R - 2. * rise / (radial * hoop)**3) /
+                (1. + 3. / (radial**4 * hoop**2))), rise
+
+    def shoot(hoop):
+        R, radial, stresses = 1., hoop**-.5, []
+        for _ in range(n_steps):
+            stresses.append(1. - 1. / (hoop**4 * radial**2))
+            k = [(0., 0.)]
+            for part in (0., .5, .5, 1.):
+                k.append(slope(R + part * size,
+                               radial + part * size * k[-1][0],
+                               hoop + part * size * k[-1][1]))
+            radial, hoop = (x + size / 6. * (k[1][i] + 2. * k[2][i] +
+                                             2. * k[3][i] + k[4][i])
+                            for i, x in enumerate((radial, hoop)))
+            R += size
+        n = n_steps // 4
+        return hoop, (sum(stresses[:n + 1]) -
+                      .5 * (stresses[0] + stresses[n])) / n
+
+    a, b = stretch, 2. * stretch - 1.
+    while abs(b - a) > 1e-8:
+        at_a, at_b = shoot(a)[0], shoot(b)[0]
+        a, b = b, b + (stretch - at_b) * (b - a) / (at_b - at_a)
+    return shoot(b)[1]
+
+
+def ring(rows):
+    """Stresses of rubber, from small to large stretches."""
+    check_near("rows", len(rows), 4, 0)
+    for row in rows:
+        expected = stretched_ring(1. + .5 * row["time"]**2)
+        check_near(f"mean stress at t = {row['time']:g}",
+                   row["stress_ratio_start"] / expected, 1., 5e-3)
+
+
+def yielding(rows):
+    """Stresses of the faces: sigma_y and hardening, of unloading 2 less."""
+    check_near("rows", len(rows), 3, 0)
+    for row, curvature, back in zip(rows, (3., 3., 7.), (0., 2., 0.)):
+        stress = 2. * (1. + (curvature - 1.) / 11. - back)
+        for name in ("start", "slit_begin"):
+            check_near(f"stress over strength, {name}",
+                       row[f"stress_ratio_{name}"], abs(stress) / 4., 1e-6)
+
+
 UNIT = {"Study/Degrees": "2"}
 HOLE = {"Growth/Criterion": "strength", "Growth/Strength": "100",
         "Growth/Averaging distance": "0.2", "Growth/Starting cracks": "2",
@@ -247,6 +319,10 @@ CASES = {
     "short": ("short_crack.prm", {}, (1,), short),
     "kirsch": ("plate_with_hole.prm", HOLE, (1,), kirsch),
     "bent": ("starting_cracks.prm", BENT, (1,), bent),
+    "pure_shear": ("../../tests/growth/rubber_strip.prm", {}, (1,),
+                   pure_shear),
+    "ring": ("../../tests/growth/rubber_ring.prm", {}, (1,), ring),
+    "yielding": ("../../tests/growth/bent_metal.prm", {}, (1,), yielding),
     "pulled": ("starting_cracks.prm", PULLED, (1, 2, 3), pulled),
 }
 

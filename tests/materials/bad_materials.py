@@ -71,10 +71,21 @@ metal("corotational", ["Discretization/Kinematics", "corotational", "finite"],
       **{"Discretization/Kinematics": "corotational"})
 metal("linear_analysis", ["Analysis/Type", "linear", "static"],
       **{"Discretization/Kinematics": "linear", "Analysis/Type": "linear"})
-metal("growth", ["Growth/Criterion", "energy release rate", "prescribed"],
-      **{"Cuts/Cuts": "tear: uv (-0.1, 0.45) (0.45, 0.45)",
-         "Growth/Tips": "tear end", "Growth/Toughness": "1"})
 RESULT = "Quantities/Quantities"
+TEAR = {"Cuts/Cuts": "tear: uv (-0.1, 0.45) (0.45, 0.45)"}
+GROWS = {**TEAR, "Growth/Tips": "tear end"}
+metal("growth", ["Growth/Criterion", "energy release rate", "strength"],
+      **GROWS, **{"Growth/Toughness": "1"})
+metal("growth_along_arc", ["Growth/Criterion", "arc length", "displacement"],
+      **GROWS, **{"Growth/Criterion": "strength", "Growth/Strength": "1",
+                  "Growth/Averaging distance": "2 cells",
+                  "Analysis/Type": "arc length"})
+rubber("hoop_stress", ["Growth/Direction", "'hoop stress'", "straight"],
+       **GROWS, **{"Growth/Toughness": "1", "Growth/Direction": "hoop stress"})
+rubber("intensity", [RESULT, "'K_I'", "energy release rate"],
+       **TEAR, **{RESULT: "k = K_I of tear end"})
+metal("release_rate", [RESULT, "depends on its path"],
+      **TEAR, **{RESULT: "g = energy release rate of tear end"})
 rubber("plastic_strain",
        [RESULT, "accumulated plastic strain", "elastoplastic"],
        **{RESULT: "a = accumulated plastic strain top at (0, 0, 0)"})

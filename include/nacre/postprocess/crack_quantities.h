@@ -58,13 +58,14 @@ namespace Nacre
 
   /**
    * The quantity that a @p phrase begins with the name of, or none. Takes the
-   * words of it, and throws for those that are not understood and for a cut
-   * that isn't among @p cuts.
+   * words of it, and throws for those that are not understood, for a cut that
+   * isn't among @p cuts and for laws of the section that don't have it.
    */
   std::optional<CrackQuantity>
-  parse_crack_quantity(QuantityPhrase  &phrase,
-                       const Cuts      &cuts,
-                       const Constants &constants);
+  parse_crack_quantity(QuantityPhrase   &phrase,
+                       const Cuts       &cuts,
+                       const SectionLaw &section,
+                       const Constants  &constants);
 
   /**
    * The tip of the crack. Throws on all ranks if there is none; collective.

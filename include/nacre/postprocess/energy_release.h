@@ -43,12 +43,21 @@ namespace Nacre
      * anything but one smooth sheet with a straight crack: other edges, cuts
      * and tips, the crack's other end, creases, other regions, supports or
      * forces at points, supports at the lips, moments there unless kinematics
-     * are linear; and of modes and with a foundation. Collective.
+     * are linear; and of modes, with a foundation and as check_law() does.
+     * Collective.
      */
     EnergyRelease(const SolvedShell  &shell,
                   const CrackTip     &tip,
                   const CrackPlateau &plateau,
                   const std::string  &where);
+
+    /**
+     * Throws unless the stored energy is a function of the strains. What a
+     * section that remembers takes up depends on its path, and its derivative
+     * with respect to the crack's length isn't what a crack releases.
+     */
+    static void
+    check_law(const SectionLaw &section, const std::string &where);
 
     /** G (force): the energy (force times length) per length. Collective. */
     double
@@ -64,7 +73,7 @@ namespace Nacre
      * the Green strains with the linear strains of X, the displacement being
      * taken as seen from the surface around the tip, which turns with it, plus
      * what membrane forces do on the bent surface. Throws unless the section is
-     * homogeneous and isotropic. Collective.
+     * linear, homogeneous and isotropic. Collective.
      */
     double
     intensity(const CrackMode mode) const;
@@ -81,7 +90,7 @@ namespace Nacre
     rate_and_intensities(const ElasticPlate &plate) const;
 
     /**
-     * The plate at the tip; none unless the section is homogeneous and
+     * The plate at the tip; none unless the section is linear, homogeneous and
      * isotropic.
      */
     std::optional<ElasticPlate>

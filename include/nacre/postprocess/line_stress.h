@@ -52,6 +52,10 @@ namespace Nacre
                  const std::vector<SurfaceLine>   &lines,
                  const std::optional<unsigned int> ignored = {});
 
+  /** Throws unless @p stress, or a sum of some, is finite (force/length^2). */
+  void
+  check_stress(const double stress);
+
   /**
    * The mean of the stress over a line, in the axes m = t0 x direction and c,
    * the direction: m . S m, m . S c, c . S c (force/length^2).

@@ -135,7 +135,8 @@ namespace Nacre
      * Throws an ExcMessage for tips that no cut has, and for parameters that
      * don't go together.
      * @param is_path whether the analysis has a time
-     * @param is_linear whether kinematics are; decides the default direction
+     * @param is_linear whether kinematics and the section are; decides the
+     *   default direction
      */
     Growth
     make(const Constants &constants,

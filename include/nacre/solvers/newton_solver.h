@@ -81,7 +81,8 @@ namespace Nacre
     /**
      * Change @p u into the solution; after a failure it is meaningless.
      * @param work if given, increments are shortened until the work of the
-     *   residual along them no longer grows (line search)
+     *   residual along them no longer grows (line search), the first one only
+     *   if there are no finite forces at its end
      */
     Result
     solve(Vector &u, const Linearise &linearise, const Work &work = {}) const;
