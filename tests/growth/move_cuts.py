@@ -82,7 +82,7 @@ def with_functions(growth, path, _nacre):
             continue
         n_moments += 1
         check_near("T after over before", now["T"] / before["T"], 1., 1e-5)
-        check_near("U after over before", now["U"] / before["U"], 1., 3e-2)
+        check_near("U after over before", now["U"] / before["U"], 1., .1)
     check_near("moments", n_moments, 1, 0)
 
 
@@ -119,7 +119,8 @@ CASES = {
     "released": (PLATE, {}, released),
     "at_once": (PLATE, {"Growth/Release time": "0"}, at_once),
     "slow": (STRIP, {}, slow),
-    "branch": (PLATE, {**SHORT, "Cuts/Tips": "branch functions"},
+    "branch": (PLATE, {**SHORT, "Cuts/Tips": "branch functions",
+                         "Mid-surface/Subdivisions": "10, 5"},
                with_functions),
     "harmonic": (PLATE, {**SHORT, "Cuts/Tips": "harmonic"}, with_functions),
 }
