@@ -103,19 +103,33 @@ namespace Nacre
     assembly_.residual(with_ghosts(u), actions_, force, &inertia);
     add_held_forces(-1., force);
     force *= -1.;
+    return solve_mass(mass, {force}).front();
+  }
 
-    const AffineConstraints<double> homogeneous = homogeneous_constraints();
-    has_tangent_                                = false;
-    Vector right_hand_side = owned_vector(), a = owned_vector();
-    mass.assemble_system(homogeneous,
-                         with_ghosts(force),
-                         matrix_,
-                         right_hand_side);
-    DirectSolver mass_solver(discretization_.communicator());
-    mass_solver.factorize(matrix_);
-    mass_solver.solve(a, right_hand_side);
-    homogeneous.distribute(a);
-    return a;
+  std::vector<ShellSystem::Vector>
+  ShellSystem::solve_mass(const MassTerms           &mass,
+                          const std::vector<Vector> &b,
+                          const bool                 moves_tips)
+  {
+    const AffineConstraints<double> homogeneous =
+      moves_tips ? homogeneous_constraints() : constraints_without_tips();
+    has_tangent_ = false;
+    DirectSolver        mass_solver(discretization_.communicator());
+    std::vector<Vector> x;
+    for (const Vector &load : b)
+      {
+        Vector right_hand_side = owned_vector();
+        mass.assemble_system(homogeneous,
+                             with_ghosts(load),
+                             matrix_,
+                             right_hand_side);
+        if (x.empty())
+          mass_solver.factorize(matrix_);
+        x.push_back(owned_vector());
+        mass_solver.solve(x.back(), right_hand_side);
+        homogeneous.distribute(x.back());
+      }
+    return x;
   }
 
   double
@@ -341,6 +355,23 @@ namespace Nacre
     AffineConstraints<double> result(constraints());
     for (const auto &line : constraints().get_lines())
       result.set_inhomogeneity(line.index, 0.);
+    return result;
+  }
+
+  AffineConstraints<double>
+  ShellSystem::constraints_without_tips() const
+  {
+    AffineConstraints<double> result(discretization_.locally_relevant_dofs());
+    result.merge(homogeneous_constraints());
+    std::vector<types::global_dof_index> dofs;
+    for (const CellPart &part : discretization_.relevant_parts())
+      {
+        discretization_.get_dof_indices(part, dofs);
+        for (auto i = discretization_.node_dofs().size(); i < dofs.size(); ++i)
+          if (!result.is_constrained(dofs[i]))
+            result.add_line(dofs[i]);
+      }
+    result.close();
     return result;
   }
 

@@ -3,7 +3,7 @@
 
 #include <nacre/base/log.h>
 #include <nacre/base/mpi_errors.h>
-#include <nacre/discretization/part_transfer.h>
+#include <nacre/discretization/field_projection.h>
 #include <nacre/simulation/growth_monitor.h>
 #include <nacre/simulation/lip_release.h>
 #include <nacre/simulation/path_run.h>
@@ -11,11 +11,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 namespace Nacre
 {
+  namespace
+  {
+    /** Let u, v, a be the projection of what they were @p before. */
+    void
+    project(const FieldProjection &before,
+            const SectionLaw      &section,
+            SteppedShell          &stepped,
+            MotionState           &motion)
+    {
+      ShellSystem &system  = stepped.system;
+      const auto   u       = system.with_ghosts(motion.u);
+      const auto   v       = system.with_ghosts(motion.v);
+      const auto   a       = system.with_ghosts(motion.a);
+      const auto   changes = system.solve_mass(
+        *stepped.path.dynamic_mass(),
+        before.missing(system.discretization(), {&u, &v, &a}, section),
+        false);
+      motion.u += changes[0];
+      motion.v += changes[1];
+      motion.a += changes[2];
+    }
+  } // namespace
+
   bool
   PathRun::watches_tips(const PathState &state) const
   {
@@ -152,9 +176,13 @@ namespace Nacre
 
     const auto &states     = stepped_->shell.assembly().section_states();
     const auto  remembered = states.records(stepped_->shell.discretization());
-    const PartTransfer transfer(stepped_->shell.discretization(),
+    const PartTransfer             transfer(stepped_->shell.discretization(),
                                 {&u, &v, &a},
                                 states.of_rules());
+    std::optional<FieldProjection> projection;
+    if (problem_.path.is_dynamic())
+      projection.emplace(stepped_->shell.discretization(),
+                         std::vector{&u, &v, &a});
     assembly_seconds_ += stepped_->system.assembly_seconds();
     auto mesh = stepped_->shell.release_mesh();
     stepped_.reset();
@@ -172,7 +200,12 @@ namespace Nacre
         state.motion.u = transfer.field_on(discretization, 0);
         state.motion.v = transfer.field_on(discretization, 1);
         state.motion.a = transfer.field_on(discretization, 2);
-        failure        = stepped_->path.resume(state, release);
+        if (projection)
+          project(*projection,
+                  *problem_.model.section,
+                  *stepped_,
+                  state.motion);
+        failure = stepped_->path.resume(state, release);
       }
     // As of a piece that can move freely, on all ranks.
     catch (const ExcMessage &error)

@@ -243,11 +243,6 @@ namespace Nacre
                 ExcMessage("Cuts/Tips: " + tips +
                            " is for quadrilaterals; choose 'closed' or "
                            "'branch functions' for triangles."));
-    AssertThrow(!problem.growth.is_on() || !problem.path.is_dynamic(),
-                ExcMessage("Growth/Tips: in motions cuts with 'Cuts/Tips = " +
-                           name_of(problem.model.cuts.tips) +
-                           "' don't grow, since a tip that moves would leave "
-                           "mass behind; choose 'closed'."));
   }
 
   namespace

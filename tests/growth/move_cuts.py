@@ -70,6 +70,22 @@ def at_once(growth, path, _nacre):
     check_near("total energy", path[-1]["E"] / path[0]["E"], 1., 1e-2)
 
 
+def with_functions(growth, path, _nacre):
+    """What functions of the old tip have goes to the nodes."""
+    conserved(path)
+    check_near("steps", growth[-1]["step"], 1, 0)
+    after = {row["time"]: row for row in path}
+    n_moments = 0
+    for before in growth:
+        now = after[before["time"]]
+        if now["R"] == before["R"]:
+            continue
+        n_moments += 1
+        check_near("T after over before", now["T"] / before["T"], 1., 1e-5)
+        check_near("U after over before", now["U"] / before["U"], 1., .1)
+    check_near("moments", n_moments, 1, 0)
+
+
 def slow(growth, _path, nacre):
     """At rest but for the release: the static path's lengths and G."""
     static = run(nacre, STRIP, {
@@ -97,10 +113,16 @@ def slow(growth, _path, nacre):
 
 
 PLATE, STRIP = "flying_plate.prm", "peeled_strip.prm"
+# One step of growth
+SHORT = {"Growth/Length": "1.6*t + 0.1", "Analysis/End time": "0.12"}
 CASES = {
     "released": (PLATE, {}, released),
     "at_once": (PLATE, {"Growth/Release time": "0"}, at_once),
     "slow": (STRIP, {}, slow),
+    "branch": (PLATE, {**SHORT, "Cuts/Tips": "branch functions",
+                         "Mid-surface/Subdivisions": "10, 5"},
+               with_functions),
+    "harmonic": (PLATE, {**SHORT, "Cuts/Tips": "harmonic"}, with_functions),
 }
 
 

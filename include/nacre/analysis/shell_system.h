@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace Nacre
 {
@@ -238,6 +239,17 @@ namespace Nacre
                  const Inertia   &inertia,
                  const MassTerms &mass);
 
+    /**
+     * M x = b for each @p b without constraints, as residuals are; x is zero
+     * where displacements are prescribed. Collective.
+     * @param moves_tips whether functions of tips with dofs of their own take
+     *   part; if not, these are zero
+     */
+    std::vector<Vector>
+    solve_mass(const MassTerms           &mass,
+               const std::vector<Vector> &b,
+               const bool                 moves_tips = true);
+
     /** trace K(u) / trace M (1/time^2). */
     double
     stiffness_to_mass(const Vector &u, const MassTerms &mass);
@@ -320,6 +332,10 @@ namespace Nacre
     /** Those of the time, without the prescribed values. */
     AffineConstraints<double>
     homogeneous_constraints() const;
+
+    /** Those, with all dofs of tips' functions zero. */
+    AffineConstraints<double>
+    constraints_without_tips() const;
 
     /**
      * The largest increment (length) that @p constraints prescribe, on all
