@@ -285,12 +285,25 @@ check_ring()
 void
 check_torsion()
 {
+  const auto twisted = with_cells("4, 16") + with_force("0, 0, 1e-5");
   check_row({"cylinder, torsion",
              "benchmarks/buckling_cylinder",
              3e-3,
              {1.6505101},
-             with_cells("4, 16") + with_force("0, 0, 1e-5") +
-               Settings{"Analysis/Range of modes=1.64, 1.66"}});
+             twisted + Settings{"Analysis/Range of modes=1.64, 1.66"}});
+  const Settings held = {"Boundary conditions/Points="};
+  check_row({"cylinder, torsion, fixed",
+             "benchmarks/buckling_cylinder",
+             7e-3,
+             {1.7470157},
+             twisted + held + with_edges("u=0, u=1: fixed") +
+               Settings{"Analysis/Range of modes=1.74, 1.76"}});
+  check_row({"cylinder, torsion, clamped",
+             "benchmarks/buckling_cylinder",
+             7e-3,
+             {1.7677112},
+             twisted + held + with_edges("u=0, u=1: clamped") +
+               Settings{"Analysis/Range of modes=1.76, 1.79"}});
 }
 
 /** (W/h)^2 eps of the modes that are even across, in a quarter. */
