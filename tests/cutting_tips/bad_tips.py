@@ -19,10 +19,6 @@ def case(name, expect, settings, args=()):
 
 case("edge_form", ["Cuts/Tips", "'Edge form = rotation jump'", "'closed'"],
      {"Discretization/Edge form": "averaged normal"}, ["--check"])
-case("growing_in_motion", ["Growth/Tips", "'Cuts/Tips = branch functions'"],
-     {"Analysis/Type": "dynamic", "Growth/Tips": "crack end",
-      "Growth/Toughness": "1", "Section/Density": "1",
-      "Quantities/Quantities": ""}, ["--check"])
 case("laminate", ["Cuts/Tips", "homogeneous isotropic section"],
      {"Section/Type": "laminate", "Quantities/Quantities": "",
       "Section/Laminate/Materials":
