@@ -12,6 +12,8 @@
 #include <nacre/postprocess/refinement_marking.h>
 #include <nacre/problem/cuts.h>
 
+#include <random>
+
 namespace CutShells
 {
   constexpr auto uv = CutCurve::Coordinates::chart;
@@ -177,6 +179,20 @@ namespace CutShells
     std::unique_ptr<Discretization>     discretization;
     std::unique_ptr<Assembly>           assembly;
   };
+
+  /** Numbers below @p size, the same ones each time. */
+  inline TrilinosVector
+  random_field(const Discretization &discretization, const double size)
+  {
+    std::mt19937                           engine(4);
+    std::uniform_real_distribution<double> number(-size, size);
+    auto                                   u = zero_vector(discretization);
+    for (unsigned int i = 0; i < discretization.n_dofs(); ++i)
+      u(i) = number(engine);
+    u.compress(VectorOperation::insert);
+    discretization.node_constraints().distribute(u);
+    return u;
+  }
 } // namespace CutShells
 
 #endif

@@ -7,8 +7,6 @@
 #include "cut_shell.h"
 #include <nacre/discretization/shell_values.h>
 
-#include <random>
-
 using namespace CutShells;
 
 namespace
@@ -27,19 +25,6 @@ namespace
                      TangentType::consistent},
                     {},
                     CutTips::branch_functions);
-  }
-
-  TrilinosVector
-  some_field(const Discretization &discretization)
-  {
-    std::mt19937                           engine(7);
-    std::uniform_real_distribution<double> number(-1., 1.);
-    auto                                   u = zero_vector(discretization);
-    for (unsigned int i = 0; i < discretization.n_dofs(); ++i)
-      u(i) = number(engine);
-    u.compress(VectorOperation::insert);
-    discretization.node_constraints().distribute(u);
-    return u;
   }
 
   /** @p u at a point of a part, functions of tips included. */
@@ -70,7 +55,7 @@ namespace
   {
     const CutShell before = cracked_plate(element, model);
     const auto    &old    = *before.discretization;
-    const auto     u      = some_field(old);
+    const auto     u      = random_field(old, 1.);
     CutShell       after  = cracked_plate(element, model);
     const auto     v =
       after.refine(Point<3>(.63, .48, 0.), element, crack, {&u}).front();

@@ -9,8 +9,6 @@
 #include "cut_shell.h"
 #include <nacre/forms/mass_terms.h>
 
-#include <random>
-
 using namespace CutShells;
 
 namespace
@@ -40,20 +38,6 @@ namespace
                      TangentType::consistent},
                     {},
                     tips);
-  }
-
-  /** Small numbers, the same ones each time. */
-  TrilinosVector
-  some_displacement(const Discretization &discretization)
-  {
-    std::mt19937                           engine(4);
-    std::uniform_real_distribution<double> number(-2e-3, 2e-3);
-    auto                                   u = zero_vector(discretization);
-    for (unsigned int i = 0; i < discretization.n_dofs(); ++i)
-      u(i) = number(engine);
-    u.compress(VectorOperation::insert);
-    discretization.node_constraints().distribute(u);
-    return u;
   }
 
   /** @p use(i, a, x) for the first dof i of each vector a, x its place. */
@@ -129,7 +113,7 @@ namespace
   {
     const CutShell shell  = cracked_shell(model, tips, section);
     const auto    &space  = *shell.discretization;
-    const auto     u      = some_displacement(space);
+    const auto     u      = random_field(space, 2e-3);
     const auto     motion = rigid_motion(Vector3{{1.9, -1.2, .8}}, Vector3());
     const auto     turned = [&](const Vector3 &x) {
       return Vector3(x + motion(Point<3>(x)));
@@ -188,7 +172,7 @@ namespace
     const CutShell shell = cracked_shell(model, tips, section);
     const auto     name  = label(model, tips, section);
     const auto    &space = *shell.discretization;
-    const auto     u     = some_displacement(space);
+    const auto     u     = random_field(space, 2e-3);
     // Another direction; the constraints hold along it.
     auto       du   = zero_vector(space);
     const auto size = space.n_dofs();
